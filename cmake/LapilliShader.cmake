@@ -1,5 +1,7 @@
 # lapilli_shader: compiles GLSL and SPIR-V assembly at build time into headers.
 
+set(LAPILLI_CMAKE_DIR "${CMAKE_CURRENT_LIST_DIR}")
+
 # lapilli_shader(<target> [NO_VALIDATE] file…)
 # file.vert, .frag, .comp … (GLSL) and file.<stage>.spvasm (assembly), relative to the calling folder. The target can then
 # `#include "shaders/file.vert.h"`, which holds `inline constexpr std::uint32_t shaders::kFileVert[]`.
@@ -29,8 +31,8 @@ function(lapilli_shader target)
       COMMAND ${compile}
       ${validate}
       COMMAND ${CMAKE_COMMAND} -DINPUT=${include_dir}/${name}.spv -DOUTPUT=${header} -DNAME=${name}
-              -P "${PROJECT_SOURCE_DIR}/cmake/EmbedSpirv.cmake"
-      DEPENDS "${source}" "${PROJECT_SOURCE_DIR}/cmake/EmbedSpirv.cmake"
+              -P "${LAPILLI_CMAKE_DIR}/EmbedSpirv.cmake"
+      DEPENDS "${source}" "${LAPILLI_CMAKE_DIR}/EmbedSpirv.cmake"
       COMMENT "Shader ${name}"
       VERBATIM)
     list(APPEND headers "${header}")
