@@ -54,7 +54,7 @@ enum class Coverage : uint8_t { kOutside, kInside, kEither };
 
 struct RasterState {
   Viewport viewport;
-  Rect scissor;                    // already intersected with the framebuffer
+  Rect scissor;  // already intersected with the framebuffer
   Cull cull = Cull::kNone;
   bool front_is_clockwise = false;  // VK_FRONT_FACE_CLOCKWISE
 };
