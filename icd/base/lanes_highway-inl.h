@@ -1,0 +1,270 @@
+// Lane primitives on Highway vectors: AVX2, AVX3 and NEON. Part of lanes-inl.h, which says what
+// each function means; lanes_sse2-inl.h is the same list for the x86-64 baseline.
+
+#if defined(LAPILLI_BASE_LANES_HIGHWAY_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAPILLI_BASE_LANES_HIGHWAY_INL_H
+#undef LAPILLI_BASE_LANES_HIGHWAY_INL_H
+#else
+#define LAPILLI_BASE_LANES_HIGHWAY_INL_H
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace lapilli {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using FTag = hn::ScalableTag<float>;
+using ITag = hn::ScalableTag<int32_t>;
+using UTag = hn::ScalableTag<uint32_t>;
+using DTag = hn::ScalableTag<double>;
+using LTag = hn::ScalableTag<uint64_t>;
+
+using F = hn::Vec<FTag>;
+using I = hn::Vec<ITag>;
+using U = hn::Vec<UTag>;
+
+struct M {
+  hn::Mask<FTag> raw;
+};
+// As many doubles as F has floats, in two vectors: lanes 0 … n/2-1, then the rest.
+struct D {
+  hn::Vec<DTag> low;
+  hn::Vec<DTag> high;
+};
+
+inline constexpr int kVectorLanes = HWY_LANES(float);
+
+// Memory.
+template <class V>
+struct LaneTag;
+template <>
+struct LaneTag<F> {
+  using Type = FTag;
+};
+template <>
+struct LaneTag<I> {
+  using Type = ITag;
+};
+template <>
+struct LaneTag<U> {
+  using Type = UTag;
+};
+template <class V>
+HWY_API V load(const void* p) {
+  using Tag = typename LaneTag<V>::Type;
+  return hn::Load(Tag(), static_cast<const hn::TFromD<Tag>*>(p));
+}
+template <class V>
+HWY_API V load_unaligned(const void* p) {
+  using Tag = typename LaneTag<V>::Type;
+  return hn::LoadU(Tag(), static_cast<const hn::TFromD<Tag>*>(p));
+}
+template <class V>
+HWY_API void store(V v, void* p) {
+  using Tag = typename LaneTag<V>::Type;
+  hn::Store(v, Tag(), static_cast<hn::TFromD<Tag>*>(p));
+}
+template <class V>
+HWY_API void store_unaligned(V v, void* p) {
+  using Tag = typename LaneTag<V>::Type;
+  hn::StoreU(v, Tag(), static_cast<hn::TFromD<Tag>*>(p));
+}
+HWY_API F broadcast(float x) { return hn::Set(FTag(), x); }
+HWY_API I broadcast(int32_t x) { return hn::Set(ITag(), x); }
+HWY_API U broadcast(uint32_t x) { return hn::Set(UTag(), x); }
+
+// Bit casts.
+template <class V>
+HWY_API F as_f(V v) {
+  return hn::BitCast(FTag(), v);
+}
+template <class V>
+HWY_API I as_i(V v) {
+  return hn::BitCast(ITag(), v);
+}
+template <class V>
+HWY_API U as_u(V v) {
+  return hn::BitCast(UTag(), v);
+}
+
+// Masks.
+HWY_API M operator&(M a, M b) { return {hn::And(a.raw, b.raw)}; }
+HWY_API M operator|(M a, M b) { return {hn::Or(a.raw, b.raw)}; }
+HWY_API M operator^(M a, M b) { return {hn::Xor(a.raw, b.raw)}; }
+HWY_API M operator~(M a) { return {hn::Not(a.raw)}; }
+// not a, and b
+HWY_API M and_not(M a, M b) { return {hn::AndNot(a.raw, b.raw)}; }
+HWY_API bool any(M m) { return !hn::AllFalse(FTag(), m.raw); }
+HWY_API bool all(M m) { return hn::AllTrue(FTag(), m.raw); }
+HWY_API F select(M m, F yes, F no) { return hn::IfThenElse(m.raw, yes, no); }
+HWY_API I select(M m, I yes, I no) { return hn::IfThenElse(hn::RebindMask(ITag(), m.raw), yes, no); }
+HWY_API U select(M m, U yes, U no) { return hn::IfThenElse(hn::RebindMask(UTag(), m.raw), yes, no); }
+HWY_API U mask_to_u(M m) { return as_u(hn::VecFromMask(FTag(), m.raw)); }
+
+// Integers.
+HWY_API I operator~(I a) { return hn::Not(a); }
+HWY_API U operator~(U a) { return hn::Not(a); }
+HWY_API U and_not(U a, U b) { return hn::AndNot(a, b); }
+HWY_API M eq(I a, I b) { return {hn::RebindMask(FTag(), hn::Eq(a, b))}; }
+HWY_API M lt(I a, I b) { return {hn::RebindMask(FTag(), hn::Lt(a, b))}; }
+HWY_API M eq(U a, U b) { return {hn::RebindMask(FTag(), hn::Eq(a, b))}; }
+HWY_API M lt(U a, U b) { return {hn::RebindMask(FTag(), hn::Lt(a, b))}; }
+HWY_API I min(I a, I b) { return hn::Min(a, b); }
+HWY_API I max(I a, I b) { return hn::Max(a, b); }
+HWY_API U min(U a, U b) { return hn::Min(a, b); }
+HWY_API U max(U a, U b) { return hn::Max(a, b); }
+template <int kCount>
+HWY_API U shift_left(U a) {
+  return hn::ShiftLeft<kCount>(a);
+}
+template <int kCount>
+HWY_API U shift_right(U a) {
+  return hn::ShiftRight<kCount>(a);
+}
+template <int kCount>
+HWY_API I shift_right(I a) {
+  return hn::ShiftRight<kCount>(a);
+}
+HWY_API U shift_left(U a, U count) { return a << hn::And(count, broadcast(31u)); }
+HWY_API U shift_right(U a, U count) { return a >> hn::And(count, broadcast(31u)); }
+HWY_API I shift_right(I a, U count) { return a >> as_i(hn::And(count, broadcast(31u))); }
+
+template <class V>
+HWY_API V join_high_halves(V even_product, V odd_product) {
+  const LTag tag;
+  const auto high = hn::Set(tag, 0xFFFFFFFF00000000ull);
+  const auto even = hn::ShiftRight<32>(hn::BitCast(tag, even_product));
+  const auto odd = hn::And(hn::BitCast(tag, odd_product), high);
+  return hn::BitCast(typename LaneTag<V>::Type(), hn::Or(even, odd));
+}
+template <class V>
+HWY_API V move_odd_lanes_to_even(V v) {
+  return hn::BitCast(typename LaneTag<V>::Type(), hn::ShiftRight<32>(hn::BitCast(LTag(), v)));
+}
+HWY_API U mul_high(U a, U b) {
+  const auto even = hn::MulEven(a, b);
+  const auto odd = hn::MulEven(move_odd_lanes_to_even(a), move_odd_lanes_to_even(b));
+  return join_high_halves(as_u(even), as_u(odd));
+}
+HWY_API I mul_high(I a, I b) {
+  const auto even = hn::MulEven(a, b);
+  const auto odd = hn::MulEven(move_odd_lanes_to_even(a), move_odd_lanes_to_even(b));
+  return join_high_halves(as_i(even), as_i(odd));
+}
+
+// Floats.
+HWY_API F sqrt(F a) { return hn::Sqrt(a); }
+HWY_API F fma(F a, F b, F c) { return hn::MulAdd(a, b, c); }
+HWY_API M eq(F a, F b) { return {hn::Eq(a, b)}; }
+HWY_API M lt(F a, F b) { return {hn::Lt(a, b)}; }
+HWY_API M le(F a, F b) { return {hn::Le(a, b)}; }
+#if HWY_ARCH_X86
+// minps and maxps give their second operand where the comparison is false.
+HWY_API F min(F x, F y) { return hn::Min(y, x); }
+HWY_API F max(F x, F y) { return hn::Max(y, x); }
+#else
+HWY_API F min(F x, F y) { return select(lt(y, x), y, x); }
+HWY_API F max(F x, F y) { return select(lt(x, y), y, x); }
+#endif
+HWY_API F trunc(F a) { return hn::Trunc(a); }
+HWY_API F round_even(F a) { return hn::Round(a); }
+HWY_API F floor(F a) { return hn::Floor(a); }
+HWY_API F ceil(F a) { return hn::Ceil(a); }
+HWY_API F to_float(I a) { return hn::ConvertTo(FTag(), a); }
+// |a| < 2^31
+HWY_API I truncate_in_range(F a) { return hn::ConvertTo(ITag(), a); }
+// |a| < 2^31, rounded to nearest even
+HWY_API I nearest_in_range(F a) { return hn::NearestInt(a); }
+
+// Doubles.
+HWY_API D broadcast(double x) { return {hn::Set(DTag(), x), hn::Set(DTag(), x)}; }
+HWY_API D operator+(D a, D b) { return {a.low + b.low, a.high + b.high}; }
+HWY_API D operator-(D a, D b) { return {a.low - b.low, a.high - b.high}; }
+HWY_API D operator*(D a, D b) { return {a.low * b.low, a.high * b.high}; }
+HWY_API D operator/(D a, D b) { return {a.low / b.low, a.high / b.high}; }
+HWY_API D load_d(const double* p) { return {hn::LoadU(DTag(), p), hn::LoadU(DTag(), p + kVectorLanes / 2)}; }
+HWY_API void store_d(D a, double* p) {
+  hn::StoreU(a.low, DTag(), p);
+  hn::StoreU(a.high, DTag(), p + kVectorLanes / 2);
+}
+HWY_API D to_double(F a) {
+  const hn::Half<FTag> half;
+  return {hn::PromoteTo(DTag(), hn::LowerHalf(half, a)), hn::PromoteTo(DTag(), hn::UpperHalf(half, a))};
+}
+HWY_API D to_double(I a) {
+  const hn::Half<ITag> half;
+  return {hn::PromoteTo(DTag(), hn::LowerHalf(half, a)), hn::PromoteTo(DTag(), hn::UpperHalf(half, a))};
+}
+HWY_API F to_float(D a) {
+  const hn::Half<FTag> half;
+  return hn::Combine(FTag(), hn::DemoteTo(half, a.high), hn::DemoteTo(half, a.low));
+}
+// |a| < 2^31
+HWY_API I truncate_in_range(D a) {
+  const hn::Half<ITag> half;
+  return hn::Combine(ITag(), hn::DemoteTo(half, a.high), hn::DemoteTo(half, a.low));
+}
+HWY_API D select(M m, D yes, D no) {
+  // The mask's 32-bit lanes, sign-extended.
+  const hn::Half<ITag> half;
+  const hn::ScalableTag<int64_t> wide;
+  const I lanes = as_i(mask_to_u(m));
+  const auto low = hn::MaskFromVec(hn::BitCast(DTag(), hn::PromoteTo(wide, hn::LowerHalf(half, lanes))));
+  const auto high = hn::MaskFromVec(hn::BitCast(DTag(), hn::PromoteTo(wide, hn::UpperHalf(half, lanes))));
+  return {hn::IfThenElse(low, yes.low, no.low), hn::IfThenElse(high, yes.high, no.high)};
+}
+HWY_API M lt(D a, D b) {
+  const auto one = hn::Set(DTag(), 1.0);
+  const D ones = {hn::IfThenElseZero(hn::Lt(a.low, b.low), one), hn::IfThenElseZero(hn::Lt(a.high, b.high), one)};
+  return {hn::Ne(to_float(ones), hn::Zero(FTag()))};
+}
+HWY_API M le(D a, D b) {
+  const auto one = hn::Set(DTag(), 1.0);
+  const D ones = {hn::IfThenElseZero(hn::Le(a.low, b.low), one), hn::IfThenElseZero(hn::Le(a.high, b.high), one)};
+  return {hn::Ne(to_float(ones), hn::Zero(FTag()))};
+}
+
+// Words of lanes. Vector `index` of a batch holds lanes index * kVectorLanes and up.
+HWY_API M mask_of(uint64_t word, int index) {
+#if HWY_TARGET == HWY_AVX3
+  return {hn::Mask<FTag>{static_cast<__mmask16>(word >> (index * kVectorLanes))}};
+#else
+  const U bits = broadcast(static_cast<uint32_t>(word >> (index * kVectorLanes)) & ((1u << kVectorLanes) - 1));
+  const U lane_bit = shift_left(broadcast(1u), hn::Iota(UTag(), 0));
+  return eq(hn::And(bits, lane_bit), lane_bit);
+#endif
+}
+// Bit i of the result is lane i of the vector; the caller shifts it to the vector's place.
+HWY_API uint64_t bits_of(M m) {
+  uint64_t bits = 0;
+  hn::StoreMaskBits(FTag(), m.raw, reinterpret_cast<uint8_t*>(&bits));
+  return bits;
+}
+
+HWY_API U gather32(const void* base, U byte_offsets, M m) {
+#if HWY_TARGET == HWY_AVX3
+  return U{_mm512_mask_i32gather_epi32(_mm512_setzero_si512(), m.raw.raw, byte_offsets.raw, base, 1)};
+#elif HWY_TARGET == HWY_AVX2
+  return U{_mm256_mask_i32gather_epi32(_mm256_setzero_si256(), static_cast<const int*>(base), byte_offsets.raw,
+                                       mask_to_u(m).raw, 1)};
+#else
+  alignas(64) uint32_t lanes[kVectorLanes];
+  store(hn::And(byte_offsets, mask_to_u(m)), lanes);
+  for (uint64_t bits = bits_of(m), lane = 0; lane < kVectorLanes; ++lane) {
+    const uint32_t offset = lanes[lane];
+    lanes[lane] = 0;
+    if ((bits >> lane & 1) != 0) {
+      __builtin_memcpy(&lanes[lane], static_cast<const char*>(base) + offset, 4);
+    }
+  }
+  return load<U>(lanes);
+#endif
+}
+HWY_API U lane_numbers() { return hn::Iota(UTag(), 0); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lapilli
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target
