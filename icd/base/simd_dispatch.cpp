@@ -57,7 +57,10 @@ std::vector<SimdTarget> supported_simd_targets() {
   return targets;
 }
 
-SimdTarget best_simd_target() { return supported_simd_targets().back(); }
+SimdTarget best_simd_target() {
+  if (machine_has(SimdTarget::kAvx3)) return SimdTarget::kAvx3;
+  return machine_has(SimdTarget::kAvx2) ? SimdTarget::kAvx2 : SimdTarget::kBaseline;
+}
 
 SimdTarget simd_target() {
   const int target = chosen.load(std::memory_order_relaxed);

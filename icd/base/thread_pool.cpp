@@ -1,0 +1,140 @@
+// The pool's threads, and how a loop opens and closes.
+#include "base/thread_pool.h"
+
+#include <signal.h>
+
+#include <cassert>
+
+#include "base/fp_environment.h"
+
+namespace lapilli {
+namespace {
+
+// About ten microseconds; longer waits sleep, for the cores belong to the application.
+constexpr int kSpins = 256;
+
+void pause_briefly() {
+#if defined(__x86_64__)
+  __builtin_ia32_pause();
+#elif defined(__aarch64__)
+  asm volatile("yield");
+#endif
+}
+
+}  // namespace
+
+ThreadPool::ThreadPool(unsigned workers) : threads_(workers > 1 ? new Thread[workers - 1] : nullptr) {
+  // Threads inherit the mask: no signal of the application can arrive on one before it has blocked it.
+  sigset_t all;
+  sigset_t before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  for (unsigned worker = 1; worker < workers; ++worker) {
+    Thread& thread = threads_[worker - 1];
+    thread.pool = this;
+    thread.worker = worker;
+    if (pthread_create(&thread.handle, nullptr, &thread_main, &thread) != 0) break;
+    size_ = worker + 1;
+  }
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+ThreadPool::~ThreadPool() {
+  state_.fetch_or(kQuit, std::memory_order_release);
+  state_.notify_all();
+  for (unsigned worker = 1; worker < size_; ++worker) {
+    pthread_join(threads_[worker - 1].handle, nullptr);
+  }
+}
+
+void* ThreadPool::thread_main(void* argument) {
+  const auto* thread = static_cast<const Thread*>(argument);
+#if defined(__linux__)
+  pthread_setname_np(pthread_self(), "lapilli-worker");
+#endif
+  const FpEnvironment environment;
+  thread->pool->serve(thread->worker);
+  return nullptr;
+}
+
+void ThreadPool::serve(unsigned worker) {
+  for (;;) {
+    std::uint32_t state = state_.load(std::memory_order_relaxed);
+    for (int spin = 0; spin < kSpins && (state & (kOpen | kQuit)) == 0; ++spin) {
+      pause_briefly();
+      state = state_.load(std::memory_order_relaxed);
+    }
+    if ((state & kQuit) != 0) return;
+    if ((state & kOpen) == 0) {
+      state_.wait(state, std::memory_order_relaxed);
+    } else if (join_open_loop()) {
+      work(worker);
+      leave_loop();
+    }
+  }
+}
+
+bool ThreadPool::join_open_loop() {
+  std::uint32_t state = state_.load(std::memory_order_relaxed);
+  while ((state & kOpen) != 0) {
+    // Acquires what the caller wrote before it opened the loop.
+    if (state_.compare_exchange_weak(state, state + 1, std::memory_order_acquire, std::memory_order_relaxed)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void ThreadPool::work(unsigned worker) {
+  for (;;) {
+    const std::size_t index = next_index_.fetch_add(1, std::memory_order_relaxed);
+    if (index >= count_) break;
+    call_(body_, index, worker);
+  }
+  state_.fetch_and(~kOpen, std::memory_order_relaxed);
+}
+
+void ThreadPool::leave_loop() {
+  // While we are inside, the caller cannot start the next loop and change the number.
+  const std::uint32_t number = loop_number_;
+  const std::uint32_t before = state_.fetch_sub(1, std::memory_order_acq_rel);
+  if ((before & ~kQuit) == 1) {
+    finished_loop_.store(number, std::memory_order_release);
+    finished_loop_.notify_all();
+  }
+}
+
+void ThreadPool::run(std::size_t count, Call call, void* body) {
+  if (count == 0) return;
+  const FpEnvironment environment;
+  [[maybe_unused]] const bool was_busy = busy_.exchange(true, std::memory_order_acquire);
+  assert(!was_busy && "parallel_for within parallel_for, or from two threads");
+  if (size_ == 1 || count == 1) {
+    for (std::size_t index = 0; index < count; ++index) call(body, index, 0);
+    busy_.store(false, std::memory_order_release);
+    return;
+  }
+
+  count_ = count;
+  call_ = call;
+  body_ = body;
+  const std::uint32_t number = ++loop_number_;
+  next_index_.store(0, std::memory_order_relaxed);
+  state_.store(kOpen | 1, std::memory_order_release);
+  state_.notify_all();
+
+  work(0);
+  leave_loop();
+  // The last to leave, perhaps this thread, says so; nobody touches the pool's loop after that.
+  for (int spin = 0; finished_loop_.load(std::memory_order_acquire) != number; ++spin) {
+    if (spin < kSpins) {
+      pause_briefly();
+    } else {
+      const std::uint32_t finished = finished_loop_.load(std::memory_order_acquire);
+      if (finished != number) finished_loop_.wait(finished, std::memory_order_acquire);
+    }
+  }
+  busy_.store(false, std::memory_order_release);
+}
+
+}  // namespace lapilli
