@@ -1,0 +1,13 @@
+// Compute dispatch: workgroups over all threads. Specification: chapter "Dispatching Commands".
+#pragma once
+
+#include "base/thread_pool.h"
+#include "shader/stage.h"
+
+namespace lapilli {
+
+// Runs groups[0] x groups[1] x groups[2] workgroups. False: out of memory.
+bool dispatch(ThreadPool& pool, const ComputeProgram& program, const ResourceTable& resources, const uint32_t groups[3],
+              ExecutionLimits* limits);
+
+}  // namespace lapilli

@@ -1,0 +1,103 @@
+// Text of a Code, one instruction a line: %4 value, $4 variable, 0x3f800000 constant, m2 mask register, L3 label.
+#include <cinttypes>
+#include <cstdarg>
+#include <cstdio>
+
+#include "shader/ir.h"
+
+namespace lapilli {
+namespace {
+
+__attribute__((format(printf, 2, 3))) void print(std::string& text, const char* format, ...) {
+  char buffer[160];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(buffer, sizeof buffer, format, arguments);
+  va_end(arguments);
+  text += buffer;
+}
+
+void print_register(std::string& text, const Code& code, Reg reg) {
+  if (reg == kNoReg) {
+    text += "none";
+  } else if (reg >= code.registers.size()) {
+    print(text, "?%" PRIu32, reg);
+  } else if (code.registers[reg].kind == RegKind::constant) {
+    print(text, "0x%08" PRIx32, code.registers[reg].bits);
+  } else {
+    print(text, "%c%" PRIu32, code.registers[reg].kind == RegKind::variable ? '$' : '%', reg);
+  }
+}
+
+void print_imm(std::string& text, ImmRole role, uint32_t imm) {
+  switch (role) {
+    case ImmRole::none:
+      return;
+    case ImmRole::mask:
+      print(text, " m%" PRIu32, imm);
+      return;
+    case ImmRole::forward:
+    case ImmRole::backward:
+      print(text, " L%" PRIu32, imm);
+      return;
+    case ImmRole::array:
+      print(text, " array%" PRIu32, imm);
+      return;
+    case ImmRole::resource:
+      print(text, " resource%" PRIu32, imm);
+      return;
+    case ImmRole::bytes:
+      print(text, " +%" PRIu32, imm);
+      return;
+    default:
+      print(text, " #%" PRIu32, imm);
+      return;
+  }
+}
+
+void print_instruction(std::string& text, const Code& code, const Instruction& instruction) {
+  if (instruction.results > 0) {
+    print_register(text, code, instruction.dst);
+    if (instruction.results > 1) {
+      text += " .. ";
+      print_register(text, code, instruction.dst + instruction.results - 1u);
+    }
+    text += " = ";
+  }
+  text += op_info(instruction.op).name;
+  for (Reg reg : {instruction.a, instruction.b, instruction.c}) {
+    if (reg == kNoReg) continue;
+    text += ' ';
+    print_register(text, code, reg);
+  }
+  const ImmRoles roles = imm_roles(instruction.op);
+  print_imm(text, roles.imm, instruction.imm);
+  print_imm(text, roles.imm2, instruction.imm2);
+  if (instruction.list_count > 0) {
+    text += " (";
+    for (uint32_t i = 0; i < instruction.list_count; ++i) {
+      if (i > 0) text += ' ';
+      print_register(text, code, code.operand_list[instruction.list_first + i]);
+    }
+    text += ')';
+  }
+  if (instruction.line != 0) print(text, "  // line %" PRIu32, instruction.line);
+}
+
+}  // namespace
+
+std::string disassemble(const Code& code) {
+  std::string text;
+  for (uint32_t at = 0; at <= code.instructions.size(); ++at) {
+    for (size_t label = 0; label < code.labels.size(); ++label) {
+      if (code.labels[label] == at) print(text, "L%zu:\n", label);
+    }
+    if (at == code.instructions.size()) break;
+    print(text, "%5" PRIu32 "  ", at);
+    print_instruction(text, code, code.instructions[at]);
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace lapilli

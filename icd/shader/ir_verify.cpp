@@ -1,0 +1,248 @@
+// Checks what the passes and the interpreter rely on. The first defect found is described; an empty string means none.
+#include <cstring>
+
+#include "shader/ir.h"
+#include "shader/resources.h"
+
+namespace lapilli {
+namespace {
+
+constexpr uint32_t kMaxResults = 16;
+constexpr uint32_t kNoLoop = 0xFFFFFFFF;
+
+struct Loop {
+  uint32_t header = 0;
+  uint32_t last = 0;  // the instruction `loop`
+};
+
+class Verifier {
+ public:
+  explicit Verifier(const Code& code) : code_(code) {}
+
+  std::string run() {
+    if (!check_tables() || !find_loops()) return error_;
+    definition_.assign(code_.registers.size(), kUndefined);
+    for (at_ = 0; at_ < size(); ++at_) {
+      if (!check_instruction(code_.instructions[at_])) return error_;
+    }
+    return error_;
+  }
+
+ private:
+  static constexpr uint32_t kUndefined = 0xFFFFFFFF;
+
+  uint32_t size() const { return static_cast<uint32_t>(code_.instructions.size()); }
+
+  bool fail(const std::string& what) {
+    error_ = what;
+    return false;
+  }
+  bool fail_here(const std::string& what) {
+    return fail("instruction " + std::to_string(at_) + " (" + op_info(code_.instructions[at_].op).name + "): " + what);
+  }
+
+  bool check_tables() {
+    for (const Instruction& instruction : code_.instructions) {
+      if (instruction.op >= Opcode::kCount) return fail("an instruction has no opcode");
+    }
+    if (size() == 0 || code_.instructions.back().op != Opcode::end) return fail("the last instruction is not end");
+    for (size_t label = 0; label < code_.labels.size(); ++label) {
+      if (code_.labels[label] == kNoLabelPosition) continue;  // an error only where it is used
+      if (code_.labels[label] >= size()) return fail("label " + std::to_string(label) + " is outside the program");
+    }
+    for (size_t i = 0; i < code_.arrays.size(); ++i) {
+      const RegArray& array = code_.arrays[i];
+      const uint64_t end = uint64_t{array.first} + array.count;
+      if (array.count == 0 || end > code_.registers.size())
+        return fail("array " + std::to_string(i) + " is outside the registers");
+      for (Reg reg = array.first; reg < end; ++reg) {
+        if (code_.registers[reg].array != i || code_.registers[reg].kind != RegKind::variable) {
+          return fail("array " + std::to_string(i) + " contains a register that is not its own");
+        }
+      }
+    }
+    return true;
+  }
+
+  // innermost_[i]: index of the innermost loop around instruction i. Loops must nest.
+  bool find_loops() {
+    innermost_.assign(size(), kNoLoop);
+    for (at_ = 0; at_ < size(); ++at_) {
+      const Instruction& instruction = code_.instructions[at_];
+      if (instruction.op != Opcode::loop) continue;
+      if (instruction.imm2 >= code_.labels.size() || code_.labels[instruction.imm2] > at_)
+        return fail_here("no label further up");
+      const uint32_t header = code_.labels[instruction.imm2];
+      const Instruction& enter = code_.instructions[header];
+      if (enter.op != Opcode::enter || enter.imm != instruction.imm)
+        return fail_here("the header does not enter its mask");
+      loops_.push_back({header, at_});
+    }
+    // In order of their ends inner loops come first.
+    for (uint32_t loop = 0; loop < loops_.size(); ++loop) {
+      for (uint32_t i = loops_[loop].header; i <= loops_[loop].last; ++i) {
+        if (innermost_[i] == kNoLoop) innermost_[i] = loop;
+      }
+    }
+    for (size_t inner = 0; inner < loops_.size(); ++inner) {
+      for (size_t outer = inner + 1; outer < loops_.size(); ++outer) {
+        const Loop& a = loops_[inner];
+        const Loop& b = loops_[outer];
+        if (b.header <= a.last && b.header > a.header) return fail("loops overlap");
+      }
+    }
+    return true;
+  }
+
+  bool check_instruction(const Instruction& instruction) {
+    const OpInfo& info = op_info(instruction.op);
+    if (instruction.op == Opcode::end && at_ + 1 != size()) return fail_here("not the last instruction");
+    if (info.results >= 0 && instruction.results != info.results) return fail_here("wrong number of results");
+    if (info.results < 0 && (instruction.results == 0 || instruction.results > kMaxResults)) {
+      return fail_here("wrong number of results");
+    }
+    return check_operand(info, 'a', instruction.a) && check_operand(info, 'b', instruction.b) &&
+           check_operand(info, 'c', instruction.c) && check_list(info, instruction) &&
+           check_imm(imm_roles(instruction.op).imm, instruction.imm) &&
+           check_imm(imm_roles(instruction.op).imm2, instruction.imm2) && check_special(instruction) &&
+           check_results(instruction);
+  }
+
+  bool check_operand(const OpInfo& info, char letter, Reg reg) {
+    const bool required = std::strchr(info.operands, letter) != nullptr;
+    const bool allowed = required || std::strchr(info.operands, letter - 'a' + 'A') != nullptr;
+    const std::string name = std::string("operand ") + letter;
+    if (reg == kNoReg) return required ? fail_here(name + " is missing") : true;
+    if (!allowed) return fail_here(name + " is not used by this op");
+    return check_use(name, reg);
+  }
+
+  bool check_use(const std::string& name, Reg reg) {
+    if (reg >= code_.registers.size()) return fail_here(name + " is no register");
+    if (code_.registers[reg].kind != RegKind::value) return true;
+    if (definition_[reg] == kUndefined) return fail_here(name + " is used before its definition");
+    // Lanes that left the loop earlier would see what later iterations computed.
+    const uint32_t loop = innermost_[definition_[reg]];
+    if (loop != kNoLoop && at_ > loops_[loop].last)
+      return fail_here(name + " was defined in a loop that has ended; it needs a masked copy");
+    return true;
+  }
+
+  bool check_list(const OpInfo& info, const Instruction& instruction) {
+    const bool has_list = std::strchr(info.operands, 'l') != nullptr;
+    if (!has_list) return instruction.list_count == 0 ? true : fail_here("takes no operand list");
+    if (uint64_t{instruction.list_first} + instruction.list_count > code_.operand_list.size())
+      return fail_here("list outside the operand list");
+    const bool color = instruction.op == Opcode::store_color;
+    const uint32_t count = color ? 4 : instruction.op == Opcode::size_2d ? 3 : 5;
+    if (instruction.list_count != count) return fail_here("wrong length of the operand list");
+    for (uint32_t i = 0; i < count; ++i) {
+      const Reg reg = code_.operand_list[instruction.list_first + i];
+      const bool optional = color ? (instruction.imm2 >> i & 1) == 0 : i < 2;
+      const std::string name = "list operand " + std::to_string(i);
+      if (reg == kNoReg && !optional) return fail_here(name + " is missing");
+      if (reg != kNoReg && !check_use(name, reg)) return false;
+    }
+    return true;
+  }
+
+  bool check_imm(ImmRole role, uint32_t imm) {
+    switch (role) {
+      case ImmRole::none:
+        return imm == 0 ? true : fail_here("has an immediate that is not used");
+      case ImmRole::mask:
+        return check_below(imm, code_.mask_count, "mask register");
+      case ImmRole::array:
+        return check_below(imm, code_.arrays.size(), "array");
+      case ImmRole::resource:
+        return check_below(imm, code_.resources.size(), "resource");
+      case ImmRole::attribute:
+        return check_below(imm, code_.attributes.size(), "attribute");
+      case ImmRole::color:
+        return check_below(imm, code_.color_formats.size(), "colour attachment");
+      case ImmRole::built_in:
+        return check_below(imm, static_cast<size_t>(BuiltIn::kCount), "built-in");
+      case ImmRole::slot:
+        return check_below(imm, code_.output_slots, "output slot");
+      case ImmRole::varying:
+        return check_below(imm, kMaxVaryingComponents, "varying");
+      case ImmRole::forward:
+        return check_forward(imm);
+      case ImmRole::backward:  // find_loops()
+      case ImmRole::bytes:
+      case ImmRole::number:
+        return true;
+    }
+    return true;
+  }
+
+  bool check_below(uint32_t imm, size_t limit, const char* what) {
+    return imm < limit ? true : fail_here(std::string("no such ") + what);
+  }
+
+  // A jump may not enter a loop but at its header, nor leave one past the end that takes lanes back.
+  bool check_forward(uint32_t label) {
+    if (label >= code_.labels.size() || code_.labels[label] == kNoLabelPosition) return fail_here("no such label");
+    const uint32_t target = code_.labels[label];
+    if (target <= at_) return fail_here("the label is not further down");
+    for (const Loop& loop : loops_) {
+      const bool from_inside = at_ >= loop.header && at_ <= loop.last;
+      const bool to_inside = target > loop.header && target <= loop.last;
+      if (to_inside && !from_inside) return fail_here("jumps into a loop");
+      // The header of a loop is entered with an empty mask only if no lane came: nobody can be waiting at its end.
+      if (from_inside && target > loop.last && at_ != loop.header) return fail_here("jumps out of a loop");
+    }
+    return true;
+  }
+
+  bool check_special(const Instruction& instruction) {
+    switch (instruction.op) {
+      case Opcode::load_push:
+      case Opcode::load_push_indexed:
+        return instruction.imm2 % 4 == 0 && instruction.imm2 < kMaxPushConstantBytes
+                   ? true
+                   : fail_here("offset outside the push constants");
+      case Opcode::fetch:
+        return instruction.results <= 4 ? true : fail_here("wrong number of results");
+      case Opcode::interpolate:
+      case Opcode::interpolate_flat:
+        return instruction.imm + instruction.results <= kMaxVaryingComponents ? true : fail_here("no such varying");
+      case Opcode::depth_test:
+        return instruction.imm < 16 ? true : fail_here("unknown depth flags");
+      case Opcode::store_color:
+        return instruction.imm2 < 16 ? true : fail_here("unknown colour component");
+      default:
+        return true;
+    }
+  }
+
+  bool check_results(const Instruction& instruction) {
+    if (instruction.results == 0)
+      return instruction.dst == kNoReg ? true : fail_here("has a destination but no result");
+    if (uint64_t{instruction.dst} + instruction.results > code_.registers.size())
+      return fail_here("the result is no register");
+    for (Reg reg = instruction.dst; reg < instruction.dst + instruction.results; ++reg) {
+      const RegKind kind = code_.registers[reg].kind;
+      if (kind == RegKind::constant) return fail_here("writes a constant");
+      if (kind == RegKind::value) {
+        if (instruction.op == Opcode::set) return fail_here("sets a register that is no variable");
+        if (definition_[reg] != kUndefined) return fail_here("writes a value a second time");
+        definition_[reg] = at_;
+      }
+    }
+    return true;
+  }
+
+  const Code& code_;
+  std::string error_;
+  uint32_t at_ = 0;
+  std::vector<Loop> loops_;  // by their ends
+  std::vector<uint32_t> innermost_;
+  std::vector<uint32_t> definition_;  // instruction that defines a value
+};
+
+}  // namespace
+
+std::string verify(const Code& code) { return Verifier(code).run(); }
+
+}  // namespace lapilli

@@ -1,0 +1,61 @@
+// From SPIR-V and fixed-function state to programs: what pipeline creation calls.
+// A draw is one vertex and one fragment program; the fragment program decides what the vertex program computes.
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "shader/program.h"
+#include "shader/resources.h"
+
+namespace lapilli {
+
+// A parsed and checked SPIR-V module (shader/spirv/). Immutable; shared by all pipelines made of it.
+class SpirvModule;
+// Fails with VK_ERROR_UNKNOWN (the specification names no code for invalid SPIR-V), naming the instruction and its word.
+Result<std::shared_ptr<const SpirvModule>> parse_spirv(std::span<const uint32_t> words);
+
+struct SpecializationEntry {
+  uint32_t constant_id = 0;
+  uint64_t bits = 0;        // value, zero-extended
+  uint32_t size = 4;        // bytes given
+};
+
+struct ShaderStage {
+  std::shared_ptr<const SpirvModule> module;
+  std::string_view entry_point;
+  std::span<const SpecializationEntry> specialization;
+};
+
+// Fixed-function state that becomes ops.
+struct GraphicsState {
+  std::span<const VertexAttribute> attributes;
+  bool depth_test = false, depth_write = false;     // false too where the pass has no depth attachment
+  VkCompareOp depth_compare = VK_COMPARE_OP_ALWAYS;
+  std::span<const VkFormat> color_formats;           // by attachment index of the subpass; VK_FORMAT_UNDEFINED: unused
+  std::span<const VkPipelineColorBlendAttachmentState> blend;  // same length
+};
+
+struct GraphicsPrograms {
+  ProgramPtr vertex;
+  ProgramPtr fragment;                       // null: nothing would be written (no fragment stage, no depth)
+  std::vector<Interpolation> varyings;       // one per varying component, from kSlotVaryings on
+  uint32_t output_slots = 0;                 // slots of VertexBatch::outputs
+  bool fragment_reads_nothing = false;       // depth only
+};
+
+Result<GraphicsPrograms> build_graphics(const ShaderStage& vertex, const ShaderStage* fragment, const GraphicsState& state,
+                                        const ResourceLayout& layout);
+
+struct ComputeProgram {
+  ProgramPtr program;
+  uint32_t workgroup_size[3] = {1, 1, 1};
+};
+Result<ComputeProgram> build_compute(const ShaderStage& stage, const ResourceLayout& layout);
+
+}  // namespace lapilli
