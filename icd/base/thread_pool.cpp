@@ -104,19 +104,19 @@ void ThreadPool::leave_loop() {
   }
 }
 
-void ThreadPool::run(std::size_t count, Call call, void* body) {
+void ThreadPool::run(std::size_t count, Call entry, void* body) {
   if (count == 0) return;
   const FpEnvironment environment;
   [[maybe_unused]] const bool was_busy = busy_.exchange(true, std::memory_order_acquire);
   assert(!was_busy && "parallel_for within parallel_for, or from two threads");
   if (size_ == 1 || count == 1) {
-    for (std::size_t index = 0; index < count; ++index) call(body, index, 0);
+    for (std::size_t index = 0; index < count; ++index) entry(body, index, 0);
     busy_.store(false, std::memory_order_release);
     return;
   }
 
   count_ = count;
-  call_ = call;
+  call_ = entry;
   body_ = body;
   const std::uint32_t number = ++loop_number_;
   next_index_.store(0, std::memory_order_relaxed);

@@ -49,7 +49,7 @@ class ThreadPool {
     pthread_t handle;
   };
 
-  void run(std::size_t count, Call call, void* body);
+  void run(std::size_t count, Call entry, void* body);
   void work(unsigned worker);
   bool join_open_loop();
   void leave_loop();
