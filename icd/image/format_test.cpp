@@ -1,0 +1,107 @@
+// The table of formats against the formats' own names, which say their layout (chapter "Formats", "Identification of
+// Formats").
+#include "image/format.h"
+
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <string>
+#include <string_view>
+
+namespace lapilli {
+namespace {
+
+// Reads "R8G8B8A8_UNORM" or "D32_SFLOAT": components from the lowest bit on.
+struct NameReader {
+  std::array<ComponentLayout, 4> components = {};
+  uint32_t bits = 0;
+  VkImageAspectFlags aspects = 0;
+
+  explicit NameReader(std::string_view name) {
+    const size_t underscore = name.find('_');
+    const std::string_view suffix = name.substr(underscore + 1);
+    const ComponentKind kind = suffix == "UNORM"    ? ComponentKind::unorm
+                               : suffix == "SFLOAT" ? ComponentKind::sfloat
+                               : suffix == "UINT"   ? ComponentKind::uint
+                               : suffix == "SINT"   ? ComponentKind::sint
+                                                    : ComponentKind::none;
+    size_t i = 0;
+    while (i < underscore) {
+      const char letter = name[i++];
+      uint8_t width = 0;
+      while (i < underscore && std::isdigit(static_cast<unsigned char>(name[i])) != 0) {
+        width = static_cast<uint8_t>(width * 10 + (name[i++] - '0'));
+      }
+      const size_t slot = letter == 'D' ? 0 : std::string_view("RGBA").find(letter);
+      components.at(slot) = {kind, static_cast<uint8_t>(bits), width};
+      bits += width;
+      aspects |= letter == 'D' ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+    }
+  }
+};
+
+TEST(Format, TableMatchesTheNames) {
+  for (const FormatInfo& info : kFormats) {
+    const NameReader expected(info.name);
+    EXPECT_EQ(info.components, expected.components) << info.name;
+    EXPECT_EQ(info.texel_size * 8, expected.bits) << info.name;
+    EXPECT_EQ(info.aspects, expected.aspects) << info.name;
+  }
+}
+
+TEST(Format, FindReturnsTheFormatItself) {
+  for (const FormatInfo& info : kFormats) {
+    EXPECT_EQ(find_format(info.format), &info) << info.name;
+    EXPECT_EQ(kFormats[info.index].format, info.format) << info.name;
+  }
+  // Values of the specification's enumeration.
+  EXPECT_EQ(find_format(static_cast<VkFormat>(37))->name, std::string("R8G8B8A8_UNORM"));
+  EXPECT_EQ(find_format(static_cast<VkFormat>(126))->name, std::string("D32_SFLOAT"));
+}
+
+TEST(Format, UnknownFormatsAreNull) {
+  EXPECT_EQ(find_format(VK_FORMAT_UNDEFINED), nullptr);
+  EXPECT_EQ(find_format(VK_FORMAT_ASTC_12x12_SRGB_BLOCK), nullptr);
+  EXPECT_EQ(find_format(VK_FORMAT_A4R4G4B4_UNORM_PACK16), nullptr);
+  EXPECT_EQ(find_format(static_cast<VkFormat>(0x7FFFFFFF)), nullptr);
+}
+
+TEST(Format, FeaturesFollowTheRulesOfTheApi) {
+  for (const FormatInfo& info : kFormats) {
+    const VkFormatProperties properties = format_properties(info.format);
+    const VkFormatFeatureFlags image = properties.optimalTilingFeatures;
+    if ((image & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT) != 0) {
+      EXPECT_NE(image & VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT, 0u) << info.name;
+      EXPECT_FALSE(info.is_integer()) << info.name;
+    }
+    if ((image & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) != 0) {
+      EXPECT_NE(image & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT, 0u) << info.name;
+    }
+    // Vulkan 1.0 without maintenance1 has no transfer bits.
+    constexpr VkFormatFeatureFlags transfer = VK_FORMAT_FEATURE_TRANSFER_SRC_BIT | VK_FORMAT_FEATURE_TRANSFER_DST_BIT;
+    EXPECT_EQ((image | properties.linearTilingFeatures | properties.bufferFeatures) & transfer, 0u) << info.name;
+    EXPECT_EQ(info.has(kTransfer), image != 0) << info.name;
+  }
+  EXPECT_EQ(format_properties(VK_FORMAT_BC1_RGB_UNORM_BLOCK).optimalTilingFeatures, 0u);
+}
+
+TEST(Format, FirstFormatsAreOffered) {
+  constexpr VkFormatFeatureFlags target =
+      VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT |
+      VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT;
+  for (VkFormat format : {VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R32G32B32A32_SFLOAT}) {
+    EXPECT_EQ(format_properties(format).optimalTilingFeatures, target);
+    EXPECT_EQ(format_properties(format).linearTilingFeatures, target);
+  }
+  EXPECT_NE(
+      format_properties(VK_FORMAT_D32_SFLOAT).optimalTilingFeatures & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT,
+      0u);
+  EXPECT_EQ(format_properties(VK_FORMAT_D32_SFLOAT).optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT, 0u);
+  for (VkFormat format :
+       {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_R32G32B32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT}) {
+    EXPECT_EQ(format_properties(format).bufferFeatures, VkFormatFeatureFlags{VK_FORMAT_FEATURE_VERTEX_BUFFER_BIT});
+  }
+}
+
+}  // namespace
+}  // namespace lapilli
