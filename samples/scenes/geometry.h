@@ -10,9 +10,9 @@
 namespace lapilli::samples {
 
 enum class Interpolation {
-  kPerspective,    // the default of GLSL ("smooth")
-  kLinear,         // noperspective: linear in the framebuffer
-  kFlat,           // the value of the provoking vertex, which is the first of the triangle
+  kPerspective,  // the default of GLSL ("smooth")
+  kLinear,       // noperspective: linear in the framebuffer
+  kFlat,         // the value of the provoking vertex, which is the first of the triangle
 };
 
 // One input of the fragment shader, `components` floats for each vertex of the draw.
@@ -36,9 +36,9 @@ struct DrawGeometry {
   std::vector<Position> positions;
   std::vector<uint32_t> indices;  // three for each triangle
   std::vector<Attribute> attributes;
-  bool cull_back_faces = false;   // the front is counter-clockwise on the screen (y down: negative Vulkan area)
-  bool depth_test = false;        // VK_COMPARE_OP_LESS; passing fragments write their depth
-  bool blend = false;             // rgb: src.a * src + (1 - src.a) * dst; alpha: src.a + (1 - src.a) * dst.a
+  bool cull_back_faces = false;  // VK_FRONT_FACE_COUNTER_CLOCKWISE: front if -sum(x_i*y_j - x_j*y_i)/2 > 0 in pixels
+  bool depth_test = false;       // VK_COMPARE_OP_LESS; passing fragments write their depth
+  bool blend = false;            // rgb: src.a * src + (1 - src.a) * dst; alpha: src.a + (1 - src.a) * dst.a
   Shade shade;
 };
 
