@@ -1,0 +1,53 @@
+// Graphics pipelines with every state a test may want to change. Viewport and scissor are dynamic unless given.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/resources.h"
+
+namespace lapilli::conformance {
+
+using samples::Context;
+
+// The default draws triangle lists of one vec4 position and one vec4 (the colour), tightly packed in binding 0.
+struct PipelineState {
+  std::span<const uint32_t> vertex_shader, fragment_shader;
+  std::vector<VkVertexInputBindingDescription> bindings = {{0, 32, VK_VERTEX_INPUT_RATE_VERTEX}};
+  std::vector<VkVertexInputAttributeDescription> attributes = {{0, 0, VK_FORMAT_R32G32B32A32_SFLOAT, 0},
+                                                               {1, 0, VK_FORMAT_R32G32B32A32_SFLOAT, 16}};
+  VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+  bool primitive_restart = false;
+  VkCullModeFlags cull = VK_CULL_MODE_NONE;
+  VkFrontFace front_face = VK_FRONT_FACE_COUNTER_CLOCKWISE;
+  bool depth_test = false;
+  bool depth_write = false;
+  VkCompareOp depth_compare = VK_COMPARE_OP_LESS;
+  VkPipelineColorBlendAttachmentState blend = {VK_FALSE,
+                                               VK_BLEND_FACTOR_ONE,
+                                               VK_BLEND_FACTOR_ZERO,
+                                               VK_BLEND_OP_ADD,
+                                               VK_BLEND_FACTOR_ONE,
+                                               VK_BLEND_FACTOR_ZERO,
+                                               VK_BLEND_OP_ADD,
+                                               0xF};
+  std::array<float, 4> blend_constants = {};
+  bool has_color = true;  // false: a subpass without colour attachment
+  std::optional<VkViewport> viewport;
+  std::optional<VkRect2D> scissor;
+  const VkSpecializationInfo* specialization = nullptr;
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  VkRenderPass render_pass = VK_NULL_HANDLE;
+};
+
+// Without check(): for tests that expect an error.
+VkResult try_create_pipeline(const Context& context, const PipelineState& state, VkPipeline* pipeline,
+                             const VkAllocationCallbacks* allocator = nullptr);
+samples::Pipeline create_pipeline(const Context& context, const PipelineState& state);
+
+// A layout with the given sets and one range of push constants (bytes; 0: none) for all stages.
+samples::PipelineLayout create_layout(const Context& context, std::span<const VkDescriptorSetLayout> sets = {},
+                                      uint32_t push_bytes = 0);
+
+}  // namespace lapilli::conformance
