@@ -1,0 +1,51 @@
+// A draw with all of its state flattened: what queue/ hands to geometry/ and raster/. Immutable once made.
+// Specification: chapters "Drawing Commands", "Rasterization".
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+#include <cstddef>
+#include <cstdint>
+
+#include "shader/batch.h"
+#include "shader/stage.h"
+
+namespace lapilli {
+
+struct IndexBuffer {
+  const std::byte* data = nullptr;  // null: not an indexed draw
+  uint64_t size = 0;                // bytes; an index outside reads as 0
+  VkIndexType type = VK_INDEX_TYPE_UINT16;
+};
+
+struct RasterState {
+  VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+  bool primitive_restart = false;
+  bool depth_clamp = false;
+  bool rasterizer_discard = false;
+  VkPolygonMode polygon_mode = VK_POLYGON_MODE_FILL;
+  VkCullModeFlags cull_mode = VK_CULL_MODE_NONE;
+  VkFrontFace front_face = VK_FRONT_FACE_COUNTER_CLOCKWISE;
+  bool depth_bias = false;
+  float depth_bias_constant = 0, depth_bias_clamp = 0, depth_bias_slope = 0;
+  float line_width = 1;
+};
+
+struct DrawCall {
+  const GraphicsPrograms* programs = nullptr;
+  ResourceTable resources;
+  VertexBinding bindings[kMaxVertexBindings];
+  IndexBuffer indices;
+  uint32_t first = 0;         // firstIndex or firstVertex
+  uint32_t count = 0;         // indexCount or vertexCount
+  int32_t vertex_offset = 0;  // added to an index
+  uint32_t first_instance = 0;
+  uint32_t instance_count = 1;
+  RasterState raster;
+  VkViewport viewport = {};
+  VkRect2D scissor = {};
+  float blend_constants[4] = {};
+  uint64_t* samples_passed = nullptr;  // occlusion query result, null: none active
+};
+
+}  // namespace lapilli
