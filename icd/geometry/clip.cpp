@@ -19,8 +19,9 @@ double distance(const Plane& plane, const ClipPoint& point) {
 ClipPoint cross_point(const ClipPoint& inside, double d_in, const ClipPoint& outside, double d_out) {
   const double t = d_in / (d_in - d_out);
   ClipPoint point;
+  // Both weights are positive, so that only the positions themselves can cancel.
   for (int i = 0; i < 4; ++i) {
-    point.position[i] = inside.position[i] + t * (outside.position[i] - inside.position[i]);
+    point.position[i] = (d_in * outside.position[i] - d_out * inside.position[i]) / (d_in - d_out);
   }
   // "the value of t used … will be adjusted to produce results that vary linearly in framebuffer space"
   const double w = point.position[3];

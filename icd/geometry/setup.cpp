@@ -127,9 +127,13 @@ void append_triangle(const SetupState& state, Corner p, Corner q, Corner r, bool
 Corner corner_of(const SetupState& state, const ClipPoint& point) {
   const double w = point.position[3];
   Corner corner;
-  corner.x = snap(state.clip_space.scale_x * (point.position[0] / w) + state.clip_space.offset_x);
-  corner.y = snap(state.clip_space.scale_y * (point.position[1] / w) + state.clip_space.offset_y);
-  corner.z = point.position[2] / w * state.depth_scale + state.depth_offset;
+  // Clipping is exact up to rounding only: what it left outside is moved to the border.
+  const auto clamped = [](double pixels) { return std::clamp(pixels, -kGuardBand, kGuardBand); };
+  corner.x = snap(clamped(state.clip_space.scale_x * (point.position[0] / w) + state.clip_space.offset_x));
+  corner.y = snap(clamped(state.clip_space.scale_y * (point.position[1] / w) + state.clip_space.offset_y));
+  double z = point.position[2] / w;
+  if (state.clip_depth) z = std::clamp(z, 0.0, 1.0);
+  corner.z = z * state.depth_scale + state.depth_offset;
   corner.inverse_w = 1.0 / w;
   corner.mix = &point;
   corner.index = 0;
