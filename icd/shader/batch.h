@@ -1,5 +1,5 @@
-// What a batch of 64 lanes gets as input besides registers: filled by geometry/ (vertices), raster/ (fragments) and compute dispatch,
-// read by the interpreter's ops. Plain structs of arrays.
+// What a batch of 64 lanes gets as input besides registers: filled by geometry/ (vertices), raster/ (fragments) and
+// compute dispatch, read by the interpreter's ops. Plain structs of arrays.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@ constexpr uint32_t kMaxColorAttachments = 8;
 
 struct VertexBinding {
   const std::byte* data = nullptr;
-  uint64_t size = 0;        // bytes; an attribute that does not lie inside reads as 0 0 0 1 (robustBufferAccess)
-  uint32_t stride = 0;      // bytes
+  uint64_t size = 0;    // bytes; an attribute that does not lie inside reads as 0 0 0 1 (robustBufferAccess)
+  uint32_t stride = 0;  // bytes
   bool per_instance = false;
 };
 
@@ -36,15 +36,15 @@ struct VertexBatch {
 // E_i(x, y) = a_i*x + b_i*y + c_i for a pixel centre at (256x+128, 256y+128), positive inside, sum = area2 everywhere.
 // All of them are integers below 2^53 in magnitude, so doubles hold and add them exactly.
 struct TriangleSetup {
-  double edge_a[3];        // change of E_i for one pixel in x
-  double edge_b[3];        // change of E_i for one pixel in y
-  double edge_c[3];        // E_i at the centre of framebuffer pixel (0, 0), without the fill-rule bias
-  double inverse_area2;    // 1 / (E_0 + E_1 + E_2)
-  double z[3];             // depth of the vertices in framebuffer space, depth bias included; [1], [2] are differences to [0]
+  double edge_a[3];      // change of E_i for one pixel in x
+  double edge_b[3];      // change of E_i for one pixel in y
+  double edge_c[3];      // E_i at the centre of framebuffer pixel (0, 0), without the fill-rule bias
+  double inverse_area2;  // 1 / (E_0 + E_1 + E_2)
+  double z[3];  // depth of the vertices in framebuffer space, depth bias included; [1], [2] are differences to [0]
   float min_depth, max_depth;  // clamp range of frag_depth (viewport's minDepth, maxDepth, in order)
-  float inverse_w[3];      // 1 / w_clip of the vertices
-  const float* varyings;   // [component][3]: a0, a1 - a0, a2 - a0; flat components: provoking vertex's bits, 0, 0
-  uint32_t front_facing;   // 0 or ~0
+  float inverse_w[3];          // 1 / w_clip of the vertices
+  const float* varyings;       // [component][3]: a0, a1 - a0, a2 - a0; flat components: provoking vertex's bits, 0, 0
+  uint32_t front_facing;       // 0 or ~0
 };
 
 // Planes of one tile in quad-major order: quad q of the tile holds texels 4q .. 4q+3.
@@ -54,20 +54,20 @@ struct TilePlanes {
 };
 
 struct FragmentBatch {
-  const TriangleSetup* triangle[kBatchQuads];   // never null; unused quads repeat a used one
-  alignas(64) uint16_t x[kBatchQuads];          // framebuffer pixel of the quad's lane 0 (both even)
+  const TriangleSetup* triangle[kBatchQuads];  // never null; unused quads repeat a used one
+  alignas(64) uint16_t x[kBatchQuads];         // framebuffer pixel of the quad's lane 0 (both even)
   alignas(64) uint16_t y[kBatchQuads];
   alignas(64) uint16_t quad_in_tile[kBatchQuads];
-  bool one_triangle = false;                    // triangle[i] are all the same
+  bool one_triangle = false;  // triangle[i] are all the same
   TilePlanes planes;
   float blend_constants[4] = {};
-  uint64_t* samples_passed = nullptr;           // occlusion counter of this worker
+  uint64_t* samples_passed = nullptr;  // occlusion counter of this worker
 };
 
 struct ComputeBatch {
   uint32_t workgroup[3] = {};
   uint32_t num_workgroups[3] = {};
-  uint32_t first_invocation = 0;   // local index of lane 0
+  uint32_t first_invocation = 0;  // local index of lane 0
 };
 
 }  // namespace lapilli

@@ -22,13 +22,15 @@ struct ProgramDeleter {
 };
 using ProgramPtr = std::unique_ptr<Program, ProgramDeleter>;
 
-// Runs the passes (dead code, folding, forwarding, scheduling), allocates registers and resolves handlers for the SIMD target in
-// force (base/simd_dispatch.h). Fails with VK_ERROR_OUT_OF_HOST_MEMORY, or VK_ERROR_UNKNOWN where the program needs more than the limits.
+// Runs the passes (dead code, folding, forwarding, scheduling), allocates registers and resolves handlers for the SIMD
+// target in force (base/simd_dispatch.h). Fails with VK_ERROR_OUT_OF_HOST_MEMORY, or VK_ERROR_UNKNOWN where the program
+// needs more than the limits.
 Result<ProgramPtr> assemble(Code code);
 
 std::string disassemble(const Program& program);
-uint32_t register_count(const Program& program);   // of 256 bytes each
-const Code& source(const Program& program);        // after the passes; tables (attributes, resources, workgroup size) as built
+uint32_t register_count(const Program& program);  // of 256 bytes each
+const Code& source(
+    const Program& program);  // after the passes; tables (attributes, resources, workgroup size) as built
 
 // Set by an op when the time limit of an endless loop has passed; the queue then reports VK_ERROR_DEVICE_LOST.
 struct ExecutionLimits {
@@ -46,11 +48,13 @@ class Execution {
 
   // Binds program and resources; keeps its memory for the next call. False: out of memory.
   bool prepare(const Program& program, const ResourceTable& resources, ExecutionLimits* limits);
-  // Run one batch. `lanes`: lanes with a vertex, invocation or covered sample. Fragments: helper lanes are the other lanes of covered quads.
+  // Run one batch. `lanes`: lanes with a vertex, invocation or covered sample. Fragments: helper lanes are the other
+  // lanes of covered quads.
   void run_vertices(const VertexBatch& batch, uint64_t lanes);
   void run_fragments(const FragmentBatch& batch, uint64_t lanes);
   void run_invocations(const ComputeBatch& batch, uint64_t lanes);
-  // For tests: the register that holds `reg` of the source code after a run is not defined; use store_output / store_buffer.
+  // For tests: the register that holds `reg` of the source code after a run is not defined; use store_output /
+  // store_buffer.
 
  private:
   struct State;

@@ -27,8 +27,9 @@ struct Descriptor {
 
 // The bound state of one draw or dispatch, flattened. Everything pointed to outlives the draw.
 struct ResourceTable {
-  const Descriptor* sets[kMaxDescriptorSets] = {};  // all descriptors of a set, in binding order; null where nothing is bound
-  const uint32_t* dynamic_offsets = nullptr;        // bytes; indexed by BindingSlot::dynamic_offset
+  const Descriptor* sets[kMaxDescriptorSets] =
+      {};                                     // all descriptors of a set, in binding order; null where nothing is bound
+  const uint32_t* dynamic_offsets = nullptr;  // bytes; indexed by BindingSlot::dynamic_offset
   alignas(16) std::byte push_constants[kMaxPushConstantBytes] = {};
 };
 
@@ -38,9 +39,9 @@ struct BindingSlot {
   uint32_t binding = 0;
   VkDescriptorType type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
   VkShaderStageFlags stages = 0;
-  uint32_t first = 0;            // index of the binding's first descriptor in its set
-  uint32_t count = 1;            // array size; 0 for a reserved binding
-  int32_t dynamic_offset = -1;   // index into ResourceTable::dynamic_offsets of element 0; -1: not a dynamic buffer
+  uint32_t first = 0;           // index of the binding's first descriptor in its set
+  uint32_t count = 1;           // array size; 0 for a reserved binding
+  int32_t dynamic_offset = -1;  // index into ResourceTable::dynamic_offsets of element 0; -1: not a dynamic buffer
 };
 
 struct ResourceLayout {

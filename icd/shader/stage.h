@@ -17,13 +17,14 @@ namespace lapilli {
 
 // A parsed and checked SPIR-V module (shader/spirv/). Immutable; shared by all pipelines made of it.
 class SpirvModule;
-// Fails with VK_ERROR_UNKNOWN (the specification names no code for invalid SPIR-V), naming the instruction and its word.
+// Fails with VK_ERROR_UNKNOWN (the specification names no code for invalid SPIR-V), naming the instruction and its
+// word.
 Result<std::shared_ptr<const SpirvModule>> parse_spirv(std::span<const uint32_t> words);
 
 struct SpecializationEntry {
   uint32_t constant_id = 0;
-  uint64_t bits = 0;        // value, zero-extended
-  uint32_t size = 4;        // bytes given
+  uint64_t bits = 0;  // value, zero-extended
+  uint32_t size = 4;  // bytes given
 };
 
 struct ShaderStage {
@@ -35,22 +36,22 @@ struct ShaderStage {
 // Fixed-function state that becomes ops.
 struct GraphicsState {
   std::span<const VertexAttribute> attributes;
-  bool depth_test = false, depth_write = false;     // false too where the pass has no depth attachment
+  bool depth_test = false, depth_write = false;  // false too where the pass has no depth attachment
   VkCompareOp depth_compare = VK_COMPARE_OP_ALWAYS;
-  std::span<const VkFormat> color_formats;           // by attachment index of the subpass; VK_FORMAT_UNDEFINED: unused
+  std::span<const VkFormat> color_formats;  // by attachment index of the subpass; VK_FORMAT_UNDEFINED: unused
   std::span<const VkPipelineColorBlendAttachmentState> blend;  // same length
 };
 
 struct GraphicsPrograms {
   ProgramPtr vertex;
-  ProgramPtr fragment;                       // null: nothing would be written (no fragment stage, no depth)
-  std::vector<Interpolation> varyings;       // one per varying component, from kSlotVaryings on
-  uint32_t output_slots = 0;                 // slots of VertexBatch::outputs
-  bool fragment_reads_nothing = false;       // depth only
+  ProgramPtr fragment;                  // null: nothing would be written (no fragment stage, no depth)
+  std::vector<Interpolation> varyings;  // one per varying component, from kSlotVaryings on
+  uint32_t output_slots = 0;            // slots of VertexBatch::outputs
+  bool fragment_reads_nothing = false;  // depth only
 };
 
-Result<GraphicsPrograms> build_graphics(const ShaderStage& vertex, const ShaderStage* fragment, const GraphicsState& state,
-                                        const ResourceLayout& layout);
+Result<GraphicsPrograms> build_graphics(const ShaderStage& vertex, const ShaderStage* fragment,
+                                        const GraphicsState& state, const ResourceLayout& layout);
 
 struct ComputeProgram {
   ProgramPtr program;
