@@ -92,27 +92,17 @@ void cover_exact(const std::array<SnappedPoint, 3>& p, const RasterState& state,
   }
 }
 
-// Distance in pixels to where z = 0 and z = w, positive between them. z is affine on the screen.
-Wide depth_range_distance(const Homogeneous& h, const Triangle& triangle, Wide x, Wide y) {
-  Wide nearest = std::numeric_limits<Wide>::infinity();
-  for (const bool far_plane : {false, true}) {
-    std::array<Wide, 3> plane{};  // value of z (or w - z) at (x, y, 1)
-    Wide scale = 0;
-    for (size_t i = 0; i < 3; ++i) {
-      const Wide d = far_plane ? Wide(triangle[i].w) - Wide(triangle[i].z) : Wide(triangle[i].z);
-      for (size_t k = 0; k < 3; ++k) {
-        plane[k] += h.edge[i][k] / h.determinant * d;
-        scale = std::max(scale, std::abs(h.edge[i][k] / h.determinant * d));
-      }
+// What the triangle may cover, a pixel added on each side; everything if a vertex is not before the eye.
+Rect screen_bounds(const Homogeneous& h, const Rect& scissor) {
+  double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300};
+  for (const auto& v : h.vertex) {
+    if (!(v[2] > 0)) return scissor;
+    for (size_t i = 0; i < 2; ++i) {
+      low[i] = std::min(low[i], double(v[i] / v[2]) - 1);
+      high[i] = std::max(high[i], double(v[i] / v[2]) + 1);
     }
-    const Wide value = plane[0] * x + plane[1] * y + plane[2];
-    const Wide slope = std::hypot(plane[0], plane[1]);
-    const bool flat = slope <= scale * 1e-15L;  // the same depth everywhere: rounding decides, or it is far away
-    Wide distance = flat ? std::numeric_limits<Wide>::infinity() : std::abs(value) / slope;
-    if (flat && std::abs(value) <= scale * 1e-6L) distance = 0;
-    nearest = std::min(nearest, value < 0 ? -distance : distance);
   }
-  return nearest;
+  return intersect(scissor, low[0], low[1], high[0], high[1]);
 }
 
 Coverage decide(Wide distance) {
@@ -126,19 +116,23 @@ void cover_clipped(const Triangle& triangle, const RasterState& state, TriangleC
   // In framebuffer space a positive determinant is a clockwise turn on the screen, which is a < 0 (rule 5).
   out->facing = facing_of(h.determinant > 0 ? -1 : h.determinant < 0 ? 1 : 0, state.front_is_clockwise);
   if (culled(out->facing, state.cull)) return;
-  out->bounds = state.scissor;
+  out->bounds = screen_bounds(h, state.scissor);
   out->pixels.reserve(size_t(out->bounds.width) * size_t(out->bounds.height));
+  std::array<ScreenLine, 5> lines = {edge_line(h, 0), edge_line(h, 1), edge_line(h, 2)};
+  const bool degenerate = h.determinant == 0;
+  if (!degenerate) {
+    lines[3] = depth_line(h, triangle, false);
+    lines[4] = depth_line(h, triangle, true);
+  }
   for (int y = out->bounds.y; y < out->bounds.y + out->bounds.height; ++y) {
     for (int x = out->bounds.x; x < out->bounds.x + out->bounds.width; ++x) {
-      const Wide cx = x + 0.5L, cy = y + 0.5L;
-      Wide distance = std::min({line_distance(h, 0, cx, cy), line_distance(h, 1, cx, cy), line_distance(h, 2, cx, cy)});
-      Coverage c = decide(distance);
-      if (h.determinant == 0) {
-        c = distance >= -kClipTolerance && distance <= kClipTolerance ? Coverage::kEither : Coverage::kOutside;
-      } else if (c != Coverage::kOutside) {
-        c = both(c, decide(depth_range_distance(h, triangle, cx, cy)));
+      Coverage c = inside_viewport(state.viewport, x, y);
+      for (size_t i = 0; i < (degenerate ? 3 : 5) && c != Coverage::kOutside; ++i) {
+        const Coverage side = decide(lines[i].distance(x + 0.5L, y + 0.5L));
+        // Without area nothing is inside, but snapping may give it some.
+        c = both(c, degenerate && side == Coverage::kInside ? Coverage::kOutside : side);
       }
-      out->pixels.push_back(c == Coverage::kOutside ? c : both(c, inside_viewport(state.viewport, x, y)));
+      out->pixels.push_back(c);
     }
   }
 }
@@ -190,8 +184,9 @@ double edge_distance(const Triangle& triangle, const RasterState& state, int px,
   bool unclipped = true;
   for (size_t i = 0; i < 3; ++i) unclipped = snap_vertex(triangle[i], state.viewport, &points[i]) && unclipped;
   const Homogeneous h = unclipped ? homogeneous_snapped(triangle, points) : homogeneous_exact(triangle, state.viewport);
-  const Wide x = px + 0.5L, y = py + 0.5L;
-  return double(std::min({line_distance(h, 0, x, y), line_distance(h, 1, x, y), line_distance(h, 2, x, y)}));
+  Wide nearest = std::numeric_limits<Wide>::infinity();
+  for (size_t i = 0; i < 3; ++i) nearest = std::min(nearest, edge_line(h, i).distance(px + 0.5L, py + 0.5L));
+  return double(nearest);
 }
 
 }  // namespace lapilli::oracle

@@ -1,6 +1,7 @@
 // Homogeneous triangle setup for the oracles: see homogeneous.h.
 #include "oracle/homogeneous.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -52,16 +53,34 @@ std::array<Wide, 3> homogeneous_weights(const Homogeneous& h, Wide x, Wide y) {
   return lambda;
 }
 
-Wide line_distance(const Homogeneous& h, int i, Wide x, Wide y) {
-  const Vec3& edge = h.edge[size_t(i)];
+Wide ScreenLine::distance(Wide x, Wide y) const {
+  const Wide value = a * x + b * y + c;
+  if (has_slope || value == 0) return value;
+  return value < 0 ? -std::numeric_limits<Wide>::infinity() : std::numeric_limits<Wide>::infinity();
+}
+
+ScreenLine edge_line(const Homogeneous& h, size_t i) {
+  const Vec3& edge = h.edge[i];
   const Wide length = std::hypot(edge[0], edge[1]);
-  const Wide value = dot(edge, {x, y, 1});
-  const Wide side = h.determinant < 0 ? Wide(-1) : Wide(1);
-  if (!(length > 0)) {
-    // The line at infinity: everything is on one side of it.
-    return side * value < 0 ? -std::numeric_limits<Wide>::infinity() : std::numeric_limits<Wide>::infinity();
+  const Wide scale = (h.determinant < 0 ? Wide(-1) : Wide(1)) / (length > 0 ? length : Wide(1));
+  return {edge[0] * scale, edge[1] * scale, edge[2] * scale, length > 0};
+}
+
+ScreenLine depth_line(const Homogeneous& h, const Triangle& triangle, bool far_plane) {
+  Vec3 plane{};
+  Wide scale = 0;  // of the terms that are added: what rounding is relative to
+  for (size_t i = 0; i < 3; ++i) {
+    const Wide d = far_plane ? Wide(triangle[i].w) - Wide(triangle[i].z) : Wide(triangle[i].z);
+    for (size_t k = 0; k < 3; ++k) {
+      const Wide term = h.edge[i][k] / h.determinant * d;
+      plane[k] += term;
+      if (k < 2) scale = std::max(scale, std::abs(term));
+    }
   }
-  return side * value / length;
+  const Wide slope = std::hypot(plane[0], plane[1]);
+  if (slope > scale * 1e-12L) return {plane[0] / slope, plane[1] / slope, plane[2] / slope, true};
+  // The same depth everywhere: inside, outside, or exactly on the plane.
+  return {0, 0, std::abs(plane[2]) < 1e-12L ? 0 : plane[2], false};
 }
 
 }  // namespace lapilli::oracle

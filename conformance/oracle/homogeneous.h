@@ -2,6 +2,8 @@
 // clipping is needed to know what is covered (Olano and Greer's formulation). Used by the oracles only.
 #pragma once
 
+#include <cstddef>
+
 #include "oracle/coverage.h"
 
 namespace lapilli::oracle {
@@ -24,8 +26,16 @@ Homogeneous homogeneous_snapped(const Triangle& triangle, const std::array<Snapp
 // lambda[i] with sum(lambda[i] * vertex[i]) = (x, y, 1); the point (pixels) is inside if none is negative.
 std::array<Wide, 3> homogeneous_weights(const Homogeneous& h, Wide x, Wide y);
 
-// Signed distance in pixels to the line of edge i, positive on the inner side. Infinite if the edge has no line on
-// the screen (both ends at the eye).
-Wide line_distance(const Homogeneous& h, int i, Wide x, Wide y);
+// A line on the screen: distance(x, y) in pixels, signed. Without a slope it says kInfinite with the sign of its value.
+struct ScreenLine {
+  Wide a = 0, b = 0, c = 0;
+  bool has_slope = false;
+  Wide distance(Wide x, Wide y) const;
+};
+
+// The line of edge i, positive on the inner side. No slope if both ends are at the eye.
+ScreenLine edge_line(const Homogeneous& h, size_t i);
+// Where z = 0 (near) or z = w (far), positive on the visible side. z is affine on the screen.
+ScreenLine depth_line(const Homogeneous& h, const Triangle& triangle, bool far_plane);
 
 }  // namespace lapilli::oracle

@@ -1,0 +1,40 @@
+// Times of every driver on one scene, taken in turns, and the pictures it drew.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/renderer.h"
+
+namespace lapilli::run {
+
+struct Driver {
+  std::string manifest;  // path of its ICD's JSON
+  std::string label;     // short name for tables and files
+};
+
+struct Plan {
+  std::string program;  // this executable
+  std::string scratch;  // directory for pixels on their way
+  samples::SceneOptions scene_options;
+  int starts = 5;            // fresh processes, whose medians are reported
+  int rounds = 8;            // turns of each driver
+  int frames_per_round = 8;  // in a turn
+};
+
+struct Measurement {
+  Driver driver;
+  std::string device;
+  samples::Timings timings;  // medians
+  std::optional<samples::Frame> frame;
+  std::string failure;  // why there is no frame
+};
+
+// In the order of `drivers`. All starts and rounds go A B C A B C …, one process at work at any time.
+std::vector<Measurement> measure(const std::string& scene, const std::vector<Driver>& drivers, const Plan& plan);
+
+// The middle value (the upper one of two); 0 of none.
+double median(std::vector<double> values);
+
+}  // namespace lapilli::run
