@@ -1,0 +1,133 @@
+// Decoding and encoding of texels on one vector of lanes, instantiated for each line of formats.def.
+// Per-target header, like base/lanes-inl.h. Specification: "Conversion from Normalized Fixed-Point to Floating-Point"
+// and back.
+#if defined(LAPILLI_IMAGE_TEXEL_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAPILLI_IMAGE_TEXEL_INL_H
+#undef LAPILLI_IMAGE_TEXEL_INL_H
+#else
+#define LAPILLI_IMAGE_TEXEL_INL_H
+#endif
+
+#include "base/lanes-inl.h"
+#include "image/format.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lapilli {
+namespace HWY_NAMESPACE {
+
+// 1/255 as two floats. The upper one has 9 bits, so that its product with a code is exact and the sum below is rounded
+// once: code / 255 bit for bit, for all 256 codes.
+inline constexpr float kUpper255th = 0x1.01p-8f;
+inline constexpr float kLower255th = 0x1.010102p-24f;
+
+// The integers 0 … 255 as floats. (No fma: it would give the same, and is slow where it is emulated.)
+HWY_API F unorm8_to_float(F code) { return code * broadcast(kUpper255th) + code * broadcast(kLower255th); }
+// Any number of them, such as a filtered one; the error is below 1 ULP, and integers give what unorm8_to_float gives.
+HWY_API F unorm8_between_to_float(F code) { return fma(code, broadcast(kUpper255th), code * broadcast(kLower255th)); }
+
+// To an integer in [0, largest].
+HWY_API U float_to_unorm(F value, float largest) {
+  const F clamped = min(max(zero_f(), value), broadcast(1.0f));  // max(0, NaN) is 0
+  return as_u(nearest_in_range(clamped * broadcast(largest)));
+}
+
+template <size_t kFormat>
+struct Texel {
+  static constexpr const FormatInfo& kInfo = kFormats[kFormat];
+  static constexpr size_t kWords = kInfo.texel_size / 4;
+  static_assert(kInfo.texel_size % 4 == 0 && kWords <= 4, "texels are whole 32-bit words");
+
+  static constexpr ComponentLayout component(int c) { return kInfo.components[static_cast<size_t>(c)]; }
+  static constexpr size_t word_of(int c) { return component(c).first_bit / 32; }
+  static constexpr int shift_of(int c) { return component(c).first_bit % 32; }
+  static constexpr uint32_t mask_of_bits(int c) { return 0xFFFFFFFFu >> (32 - component(c).bits); }
+  static constexpr float largest(int c) { return static_cast<float>(mask_of_bits(c)); }
+
+  // All colour components are UNORM of 8 bits: filters then work on the codes and divide once, at the end.
+  static constexpr bool kFiltersCodes = [] {
+    for (const ComponentLayout& c : kInfo.components) {
+      if (c.kind != ComponentKind::unorm || c.bits != 8) return false;
+    }
+    return true;
+  }();
+
+  // The bits of component c, from bit 0 on.
+  template <int c>
+  HWY_API U field(const U* words) {
+    static_assert(shift_of(c) + component(c).bits <= 32, "a component lies in one word");
+    U bits = words[word_of(c)];
+    if constexpr (shift_of(c) != 0) bits = shift_right<shift_of(c)>(bits);
+    if constexpr (shift_of(c) + component(c).bits < 32) bits = bits & broadcast(mask_of_bits(c));
+    return bits;
+  }
+
+  // UNORM as the code, the others as decode().
+  template <int c>
+  HWY_API F decode_code(const U* words) {
+    constexpr ComponentLayout layout = component(c);
+    if constexpr (layout.kind == ComponentKind::none) {
+      return c < 3 ? zero_f() : kInfo.is_integer() ? as_f(broadcast(1u)) : broadcast(1.0f);
+    } else if constexpr (layout.kind == ComponentKind::unorm) {
+      static_assert(layout.bits <= 16);
+      return to_float(as_i(field<c>(words)));
+    } else if constexpr (layout.kind == ComponentKind::sint && layout.bits < 32) {
+      constexpr int unused = 32 - layout.bits;
+      return as_f(shift_right<unused>(as_i(shift_left<unused>(field<c>(words)))));
+    } else {
+      static_assert(layout.kind != ComponentKind::sfloat || layout.bits == 32);
+      return as_f(field<c>(words));
+    }
+  }
+
+  // `code` from decode_code().
+  template <int c>
+  HWY_API F finish_code(F code) {
+    constexpr ComponentLayout layout = component(c);
+    if constexpr (layout.kind != ComponentKind::unorm) {
+      return code;
+    } else if constexpr (layout.bits == 8) {
+      return unorm8_to_float(code);
+    } else {
+      return code / broadcast(largest(c));
+    }
+  }
+
+  HWY_API void decode(const U* words, F* rgba) {
+    rgba[0] = finish_code<0>(decode_code<0>(words));
+    rgba[1] = finish_code<1>(decode_code<1>(words));
+    rgba[2] = finish_code<2>(decode_code<2>(words));
+    rgba[3] = finish_code<3>(decode_code<3>(words));
+  }
+
+  template <int c>
+  HWY_API void encode_component(F value, U* words) {
+    constexpr ComponentLayout layout = component(c);
+    if constexpr (layout.kind != ComponentKind::none) {
+      U bits = as_u(value);
+      if constexpr (layout.kind == ComponentKind::unorm) bits = float_to_unorm(value, largest(c));
+      if constexpr (layout.kind == ComponentKind::sfloat) bits = as_u(canonical(value));
+      if constexpr (layout.bits < 32 && layout.kind != ComponentKind::unorm) bits = bits & broadcast(mask_of_bits(c));
+      if constexpr (shift_of(c) != 0) bits = shift_left<shift_of(c)>(bits);
+      words[word_of(c)] = words[word_of(c)] | bits;
+    }
+  }
+
+  HWY_API void encode(const F* rgba, U* words) {
+    for (size_t word = 0; word < kWords; ++word) words[word] = zero_u();
+    encode_component<0>(rgba[0], words);
+    encode_component<1>(rgba[1], words);
+    encode_component<2>(rgba[2], words);
+    encode_component<3>(rgba[3], words);
+  }
+
+  // `base` + byte offsets; 0 where m is not set.
+  HWY_API void gather(const std::byte* base, U byte_offsets, M m, U* words) {
+    for (size_t word = 0; word < kWords; ++word) words[word] = gather32(base + 4 * word, byte_offsets, m);
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lapilli
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target

@@ -1,0 +1,188 @@
+// The load and store functions of every format, for every SIMD target.
+#include "image/texel.h"
+
+#include <array>
+#include <cstring>
+#include <utility>
+
+#include "base/simd_targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "image/texel.cpp"
+#include <hwy/foreach_target.h>
+
+#include "image/texel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lapilli {
+namespace HWY_NAMESPACE {
+namespace {
+
+constexpr int kQuads = kLanes / 4;
+constexpr uint64_t kOneLaneOfEachQuad = 0x1111111111111111;
+
+// The words of a batch's texels, word by word: word w of lane i is word[w][i].
+template <size_t kWords>
+struct BatchWords {
+  alignas(64) uint32_t word[kWords][kLanes];
+};
+
+// Bit 4q is set if any lane of quad q is.
+HWY_API uint64_t live_quads(uint64_t lanes) {
+  const uint64_t pairs = lanes | lanes >> 1;
+  return (pairs | pairs >> 2) & kOneLaneOfEachQuad;
+}
+
+template <size_t kWords>
+HWY_API void read_quad(const std::byte* texels, int quad, BatchWords<kWords>& words) {
+  if constexpr (kWords == 1) {
+    std::memcpy(&words.word[0][quad * 4], texels, 16);
+  } else {
+    for (int lane = quad * 4; lane < quad * 4 + 4; ++lane) {
+      for (size_t w = 0; w < kWords; ++w, texels += 4) std::memcpy(&words.word[w][lane], texels, 4);
+    }
+  }
+}
+
+template <size_t kWords>
+void read_quads(const std::byte* plane, const uint16_t* quad_index, uint64_t lanes, BatchWords<kWords>& words) {
+  constexpr size_t quad_bytes = 16 * kWords;
+  const uint64_t live = live_quads(lanes);
+  if (live == kOneLaneOfEachQuad) {
+    for (int quad = 0; quad < kQuads; ++quad) read_quad<kWords>(plane + quad_index[quad] * quad_bytes, quad, words);
+    return;
+  }
+  for (int quad = 0; quad < kQuads; ++quad) {
+    if ((live >> (quad * 4) & 1) != 0) {
+      read_quad<kWords>(plane + quad_index[quad] * quad_bytes, quad, words);
+    } else {
+      for (size_t w = 0; w < kWords; ++w) std::memset(&words.word[w][quad * 4], 0, 16);
+    }
+  }
+}
+
+template <size_t kWords>
+void write_quads(const BatchWords<kWords>& words, std::byte* plane, const uint16_t* quad_index, uint64_t lanes) {
+  constexpr size_t quad_bytes = 16 * kWords;
+  for (int quad = 0; quad < kQuads; ++quad) {
+    const uint32_t quad_lanes = lanes >> (quad * 4) & 15;
+    if (quad_lanes == 0) continue;
+    std::byte* texels = plane + quad_index[quad] * quad_bytes;
+    if (kWords == 1 && quad_lanes == 15) {
+      std::memcpy(texels, &words.word[0][quad * 4], 16);
+      continue;
+    }
+    for (int lane = 0; lane < 4; ++lane, texels += 4 * kWords) {
+      if ((quad_lanes >> lane & 1) == 0) continue;
+      for (size_t w = 0; w < kWords; ++w) std::memcpy(texels + 4 * w, &words.word[w][quad * 4 + lane], 4);
+    }
+  }
+}
+
+HWY_API void store_components(const F* rgba, int vector, float* const registers[4]) {
+  for (int c = 0; c < 4; ++c) {
+    if (registers[c] != nullptr) store(rgba[c], registers[c] + vector * kVectorLanes);
+  }
+}
+
+template <size_t kFormat>
+void load_quads(const std::byte* plane, const uint16_t* quad_index, uint64_t lanes, float* const registers[4]) {
+  using T = Texel<kFormat>;
+  BatchWords<T::kWords> words;
+  read_quads<T::kWords>(plane, quad_index, lanes, words);
+  for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
+    U texel[T::kWords];
+    for (size_t w = 0; w < T::kWords; ++w) texel[w] = load<U>(&words.word[w][vector * kVectorLanes]);
+    F rgba[4];
+    T::decode(texel, rgba);
+    store_components(rgba, vector, registers);
+  }
+}
+
+// Takes the bits of `mask` from the new words, the others from the texels that are there.
+template <size_t kFormat>
+void keep_other_components(const std::byte* plane, const uint16_t* quad_index, uint64_t lanes, uint32_t components,
+                           BatchWords<Texel<kFormat>::kWords>& words) {
+  using T = Texel<kFormat>;
+  uint32_t mask[T::kWords] = {};
+  for (int c = 0; c < 4; ++c) {
+    const bool written = (components >> c & 1) != 0 && T::component(c).bits != 0;
+    if (written) mask[T::word_of(c)] |= T::mask_of_bits(c) << T::shift_of(c);
+  }
+  BatchWords<T::kWords> old;
+  read_quads<T::kWords>(plane, quad_index, lanes, old);
+  for (size_t w = 0; w < T::kWords; ++w) {
+    const U taken = broadcast(mask[w]);
+    for (int lane = 0; lane < kLanes; lane += kVectorLanes) {
+      const U mixed = (load<U>(&words.word[w][lane]) & taken) | and_not(taken, load<U>(&old.word[w][lane]));
+      store(mixed, &words.word[w][lane]);
+    }
+  }
+}
+
+template <size_t kFormat>
+void store_quads(std::byte* plane, const uint16_t* quad_index, uint64_t lanes, const float* const registers[4],
+                 uint32_t components) {
+  using T = Texel<kFormat>;
+  BatchWords<T::kWords> words;
+  for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
+    F rgba[4];
+    for (int c = 0; c < 4; ++c) {
+      // A register that the format or the mask does not ask for may be null.
+      rgba[c] = registers[c] != nullptr ? load<F>(registers[c] + vector * kVectorLanes) : zero_f();
+    }
+    U texel[T::kWords];
+    T::encode(rgba, texel);
+    for (size_t w = 0; w < T::kWords; ++w) store(texel[w], &words.word[w][vector * kVectorLanes]);
+  }
+  uint32_t present = 0;
+  for (int c = 0; c < 4; ++c) present |= T::component(c).bits != 0 ? 1u << c : 0u;
+  if ((components & present) != present) keep_other_components<kFormat>(plane, quad_index, lanes, components, words);
+  write_quads<T::kWords>(words, plane, quad_index, lanes);
+}
+
+template <size_t kFormat>
+void load_gathered(const std::byte* base, const uint32_t* byte_offsets, uint64_t lanes, float* const registers[4]) {
+  using T = Texel<kFormat>;
+  for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
+    const M m = mask_of(lanes, vector);
+    U texel[T::kWords];
+    T::gather(base, load<U>(byte_offsets + vector * kVectorLanes), m, texel);
+    F rgba[4];
+    T::decode(texel, rgba);
+    const F one = T::kInfo.is_integer() ? as_f(broadcast(1u)) : broadcast(1.0f);
+    rgba[3] = select(m, rgba[3], one);
+    store_components(rgba, vector, registers);
+  }
+}
+
+template <size_t... kIndices>
+constexpr std::array<TexelFunctions, sizeof...(kIndices)> make_table(std::index_sequence<kIndices...>) {
+  return {TexelFunctions{load_quads<kIndices>, store_quads<kIndices>, load_gathered<kIndices>}...};
+}
+
+}  // namespace
+
+using TexelTable = std::array<TexelFunctions, kFormatCount>;
+extern const TexelTable kTexelTable;
+const TexelTable kTexelTable = make_table(std::make_index_sequence<kFormatCount>());
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lapilli
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lapilli {
+namespace {
+
+constexpr PerTarget<const std::array<TexelFunctions, kFormatCount>> kTables = LAPILLI_PER_TARGET(kTexelTable);
+
+}  // namespace
+
+const TexelFunctions& texel_functions(const FormatInfo& format) { return for_target(kTables)[format.index]; }
+const TexelFunctions& texel_functions(const FormatInfo& format, SimdTarget target) {
+  return for_target(kTables, target)[format.index];
+}
+
+}  // namespace lapilli
+#endif

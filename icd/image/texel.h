@@ -1,0 +1,36 @@
+// Texels to lanes and back, 64 at a time: one set of functions for each format, compiled for each SIMD target.
+// Resolve it once, when a program is built; the functions hold no format switch. Specification: "Formats", numeric
+// formats.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/simd_dispatch.h"
+#include "image/format.h"
+
+namespace lapilli {
+
+// Registers are 64 floats (or integers' bits), 64-byte aligned; a null register of a load is not written. Lane i is bit
+// i of `lanes`. Tile planes are quad-major (tile.h): lanes 4q … 4q+3 are the four texels of quad quad_index[q], which
+// is read only where one of its lanes is set.
+//   UNORM: c / (2^b - 1), correctly rounded; stored: clamped to [0, 1], NaN as 0, times 2^b - 1, to the nearest
+//   integer, half to even. A NaN stored as a float becomes 0x7FC00000. Components that the format lacks load as 0,
+//   alpha as 1.
+struct TexelFunctions {
+  // Lanes outside of `lanes` get some value.
+  void (*load_quads)(const std::byte* plane, const uint16_t* quad_index, uint64_t lanes, float* const registers[4]);
+  // Writes the components whose bit is set in `components` (1 R, 2 G, 4 B, 8 A), in the lanes of `lanes`, and no other
+  // byte.
+  void (*store_quads)(std::byte* plane, const uint16_t* quad_index, uint64_t lanes, const float* const registers[4],
+                      uint32_t components);
+  // Texels at base + byte_offsets[lane] (below 2^31, any alignment). Other lanes: 0 0 0 1, and their memory is not
+  // touched.
+  void (*load_gathered)(const std::byte* base, const uint32_t* byte_offsets, uint64_t lanes, float* const registers[4]);
+};
+
+// `format` from find_format(), for the SIMD target in force or a given one.
+const TexelFunctions& texel_functions(const FormatInfo& format);
+const TexelFunctions& texel_functions(const FormatInfo& format, SimdTarget target);
+
+}  // namespace lapilli
