@@ -71,6 +71,8 @@ HWY_API M le(I a, I b) { return ~lt(b, a); }
 HWY_API M le(U a, U b) { return ~lt(b, a); }
 HWY_API M ge(I a, I b) { return ~lt(a, b); }
 HWY_API M ge(U a, U b) { return ~lt(a, b); }
+HWY_API D min(D x, D y) { return select(lt(y, x), y, x); }
+HWY_API D max(D x, D y) { return select(lt(x, y), y, x); }
 HWY_API M is_nan(F a) { return ~eq(a, a); }
 HWY_API M unordered(F a, F b) { return is_nan(a) | is_nan(b); }
 HWY_API M ordered(F a, F b) { return eq(a, a) & eq(b, b); }

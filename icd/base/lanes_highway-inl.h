@@ -183,6 +183,7 @@ HWY_API D operator+(D a, D b) { return {a.low + b.low, a.high + b.high}; }
 HWY_API D operator-(D a, D b) { return {a.low - b.low, a.high - b.high}; }
 HWY_API D operator*(D a, D b) { return {a.low * b.low, a.high * b.high}; }
 HWY_API D operator/(D a, D b) { return {a.low / b.low, a.high / b.high}; }
+HWY_API D sqrt(D a) { return {hn::Sqrt(a.low), hn::Sqrt(a.high)}; }
 HWY_API D load_d(const double* p) { return {hn::LoadU(DTag(), p), hn::LoadU(DTag(), p + kVectorLanes / 2)}; }
 HWY_API void store_d(D a, double* p) {
   hn::StoreU(a.low, DTag(), p);

@@ -215,6 +215,7 @@ HWY_API D operator+(D a, D b) { return {_mm_add_pd(a.low, b.low), _mm_add_pd(a.h
 HWY_API D operator-(D a, D b) { return {_mm_sub_pd(a.low, b.low), _mm_sub_pd(a.high, b.high)}; }
 HWY_API D operator*(D a, D b) { return {_mm_mul_pd(a.low, b.low), _mm_mul_pd(a.high, b.high)}; }
 HWY_API D operator/(D a, D b) { return {_mm_div_pd(a.low, b.low), _mm_div_pd(a.high, b.high)}; }
+HWY_API D sqrt(D a) { return {_mm_sqrt_pd(a.low), _mm_sqrt_pd(a.high)}; }
 HWY_API D load_d(const double* p) { return {_mm_loadu_pd(p), _mm_loadu_pd(p + 2)}; }
 HWY_API void store_d(D a, double* p) {
   _mm_storeu_pd(p, a.low);
