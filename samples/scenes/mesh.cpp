@@ -25,8 +25,8 @@ glm::vec3 tube_point(float turn, float round) {
   const glm::vec3 ahead = center_line(turn + kStep);
   const glm::vec3 tangent = glm::normalize(ahead - here);
   // The position itself is never along the tangent, so it gives a frame that closes.
-  const glm::vec3 side = glm::normalize(glm::cross(tangent, here));
-  const glm::vec3 up = glm::cross(side, tangent);
+  const glm::vec3 side = glm::normalize(glm::cross(here, tangent));
+  const glm::vec3 up = glm::cross(tangent, side);
   const float angle = round * glm::two_pi<float>();
   return snap_position(here + kTubeRadius * (glm::cos(angle) * up + glm::sin(angle) * side));
 }

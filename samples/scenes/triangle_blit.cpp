@@ -105,7 +105,7 @@ class TriangleBlit final : public Scene {
     Shade backdrop = [textures](const double* in) {
       const Color texel = sample_bilinear(textures->first, Wrap::kRepeat, in[0], in[1]);
       const double in_color = sample_bilinear(textures->second, Wrap::kClampToEdge, in[0], in[1])[0];
-      const double grey = 0.45 * (0.2126 * texel[0] + 0.7152 * texel[1] + 0.0722 * texel[2]);
+      const double grey = 0.6 * (0.2126 * texel[0] + 0.7152 * texel[1] + 0.0722 * texel[2]);
       Color color = {0, 0, 0, 1};
       for (size_t c = 0; c < 3; ++c) color[c] = grey * (1 - in_color) + texel[c] * in_color;
       return color;

@@ -7,6 +7,6 @@ layout(location = 0) out vec4 color;
 
 void main() {
   vec3 texel = texture(picture, uv).rgb;
-  float grey = 0.45 * dot(texel, vec3(0.2126, 0.7152, 0.0722));
+  float grey = 0.6 * dot(texel, vec3(0.2126, 0.7152, 0.0722));
   color = vec4(mix(vec3(grey), texel, texture(mask, uv).r), 1.0);
 }
