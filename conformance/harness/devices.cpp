@@ -44,6 +44,8 @@ void choose_drivers() {
   setenv("VK_DRIVER_FILES", manifests.c_str(), 1);
   setenv("VK_ICD_FILENAMES", manifests.c_str(), 1);  // the name of older loaders
   setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+  // lavapipe's float texture filter instead of the one with 8-bit weights.
+  setenv("GALLIVM_PERF", "no_aos_sampling,no_quad_lod", 0);
   setenv("NODEVICE_SELECT", "1", 1);  // Mesa's implicit device-select layer
   setenv("XDG_RUNTIME_DIR", "/tmp", 0);
 }
