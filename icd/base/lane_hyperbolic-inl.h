@@ -30,12 +30,12 @@ HWY_API F odd_series(F x, double c1, double c2, double c3) {
 }
 // ln t for double t, 2^-120 ≤ t ≤ 2^129
 HWY_API D ln_double(D t) {
-  // The quarter is in float's range; its exponent is that of t, give or take a rounding.
-  const D quarter = t * broadcast(0.25);
-  const I bits = as_i(to_float(quarter)) - broadcast(0x3F3504F3);
+  // A sixteenth is well inside float's range; its exponent is that of t less 4, give or take a rounding.
+  const D part = t * broadcast(0.0625);
+  const I bits = as_i(to_float(part)) - broadcast(0x3F3504F3);
   const I k = shift_right<23>(bits);
-  const D m = quarter * to_double(power_of_two(negate(k)));
-  return (to_double(k + broadcast(2)) + log2_double(m)) * broadcast(kLn2);
+  const D m = part * to_double(power_of_two(negate(k)));
+  return (to_double(k + broadcast(4)) + log2_double(m)) * broadcast(kLn2);
 }
 
 HWY_API F sinh(F x) {

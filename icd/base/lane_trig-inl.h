@@ -23,7 +23,7 @@ inline constexpr float kPi2 = -0x1.777a5cp-24f;
 // Adding it leaves no bits below 1: rounds to an integer, which stands in the low bits of the sum.
 inline constexpr float kRoundToInteger = 12582912.0f;  // 1.5 · 2^23
 
-// An angle is quadrant · π/2 + r + tail with |r| ≤ π/4 and |tail| below the last place of r.
+// An angle is quadrant · π/2 + r + tail with |r| ≤ π/4 and |tail| at most half the last place of r.
 struct ReducedAngle {
   F r;
   F tail;
@@ -51,17 +51,35 @@ static HWY_NOINLINE HWY_MAYBE_UNUSED void reduce_large(F angle, M large, Reduced
   reduced->quadrant = load<U>(quadrant);
 }
 
-// angle ≥ 0 (Cody and Waite, with fma). Callers that do not use the tail do not pay for it.
-HWY_API ReducedAngle reduce_angle(F angle) {
+// angle ≥ 0, as k · π/2 + r1 (Cody and Waite, with fma), up to the parts of π/2 after the first.
+struct AngleStep {
+  F k;
+  F r1;
+  U quadrant;
+};
+HWY_API AngleStep first_reduction(F angle) {
   const F shifted = fma(angle, broadcast(0x1.45f306p-1f), broadcast(kRoundToInteger));
-  const F k = negate(shifted - broadcast(kRoundToInteger));
+  const F k = shifted - broadcast(kRoundToInteger);
   // Exact: the difference is a multiple of angle's last place or of 2^-24, and less than 1.
-  const F r1 = fma(k, broadcast(kHalfPi1), angle);
-  const F r2 = fma(k, broadcast(kHalfPi2), r1);
-  const F rest = fma(k, broadcast(kHalfPi2), r1 - r2);
-  const F r3 = fma(k, broadcast(kHalfPi3), rest);
-  const F r = r2 + r3;
-  ReducedAngle reduced = {r, (r2 - r) + r3, as_u(shifted)};
+  return {k, fma(k, broadcast(-kHalfPi1), angle), as_u(shifted)};
+}
+// r rounded to a float, no tail. If the second step cancels, its rounding error shrinks with its result.
+HWY_API ReducedAngle reduce_angle(F angle) {
+  const AngleStep step = first_reduction(angle);
+  const F r2 = fma(step.k, broadcast(-kHalfPi2), step.r1);
+  ReducedAngle reduced = {fma(step.k, broadcast(-kHalfPi3), r2), zero_f(), step.quadrant};
+  const M large = ~lt(angle, broadcast(kLargeAngle));
+  if (HWY_UNLIKELY(any(large))) reduce_large(angle, large, &reduced);
+  return reduced;
+}
+HWY_API ReducedAngle reduce_angle_with_tail(F angle) {
+  const AngleStep step = first_reduction(angle);
+  const F second = step.k * broadcast(-kHalfPi2);
+  const F second_error = fma(step.k, broadcast(-kHalfPi2), negate(second));
+  const F r2 = step.r1 + second;
+  const F rest = (second - (r2 - step.r1)) + fma(step.k, broadcast(-kHalfPi3), second_error);
+  const F r = r2 + rest;
+  ReducedAngle reduced = {r, (r2 - r) + rest, step.quadrant};
   const M large = ~lt(angle, broadcast(kLargeAngle));
   if (HWY_UNLIKELY(any(large))) reduce_large(angle, large, &reduced);
   return reduced;
@@ -96,7 +114,7 @@ HWY_API F cos(F x) {
   return sin_of_reduced(a.r, a.quadrant + broadcast(1u));
 }
 HWY_API F tan(F x) {
-  const ReducedAngle a = reduce_angle(abs(x));
+  const ReducedAngle a = reduce_angle_with_tail(abs(x));
   const F u = a.r * a.r;
   F p = fma(broadcast(0x1.225efcp-8f), u, broadcast(-0x1.61d1eap-16f));
   p = fma(p, u, broadcast(0x1.65f652p-7f));
