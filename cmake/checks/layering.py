@@ -29,8 +29,8 @@ OUTSIDE = ["samples", "conformance"]
 
 INTRINSICS = re.compile(r"^(\w*mmintrin\.h|x86intrin\.h|arm_(neon|sve)\.h)$")
 HIGHWAY = re.compile(r"^hwy/")
-# Files compiled once per SIMD target, relative to icd/ (tests beside them included).
-PER_TARGET = re.compile(r"^(base/.*|image/[^/]*(-inl\.h|_test\.cpp)|shader/interpreter/.*)$")
+# Files compiled once per SIMD target, relative to icd/.
+PER_TARGET = re.compile(r"^(base/.*|image/[^/]*-inl\.h|shader/interpreter/.*)$")
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
@@ -47,6 +47,14 @@ def reachable(folder):
 
 def sources(folder):
     return sorted(path for path in folder.rglob("*") if path.suffix in SUFFIXES) if folder.is_dir() else []
+
+
+def is_per_target(path, name):
+    """Whether a file is compiled per SIMD target: those above, and an image/x.cpp or x_test.cpp that compiles x-inl.h."""
+    if PER_TARGET.match(name):
+        return True
+    inline = path.with_name(re.sub(r"(_test)?\.cpp$", "-inl.h", path.name))
+    return name.startswith("image/") and path.suffix == ".cpp" and inline.is_file()
 
 
 def check_driver_file(path, icd, handle, complain):
@@ -67,7 +75,7 @@ def check_driver_file(path, icd, handle, complain):
             complain(path, line, f"includes {included}: not a file of icd/ named from its root")
         if INTRINSICS.match(included) and folder != "base":
             complain(path, line, f"includes {included}: intrinsics live in base/ only")
-        if HIGHWAY.match(included) and not PER_TARGET.match(name):
+        if HIGHWAY.match(included) and not is_per_target(path, name):
             complain(path, line, f"includes {included}: not a file that is compiled per SIMD target")
     if folder in WITHOUT_HANDLES:
         blank = COMMENT_OR_STRING.sub(lambda m: re.sub(r"[^\n]", " ", m.group()), text)
@@ -103,6 +111,8 @@ def self_test(vulkan_core):
     cases = {
         "icd/base/lanes-inl.h": ("#include <hwy/highway.h>\n#include <immintrin.h>\n", None),
         "icd/image/texel-inl.h": ('#include "base/lanes-inl.h"\n#include "hwy/highway.h"\n', None),
+        "icd/image/texel.cpp": ('#include "hwy/foreach_target.h"\n#include "image/texel-inl.h"\n', None),
+        "icd/image/copy.cpp": ('#include "hwy/highway.h"\n', "not a file that is compiled per SIMD target"),
         "icd/queue/draw.cpp": ('#include "raster/tile.h"\n#include "base/log.h"\nVkDevice device;\n', None),
         "icd/raster/handle_comment.cpp": ("// VkDevice is not seen here\nVkFormat format; /* VkImage */\n", None),
         "icd/base/up.h": ('#include "image/format.h"\n', "base includes image/format.h"),
