@@ -1,0 +1,287 @@
+// Sampled 2D images: level of detail, the levels that a batch needs, and the choice of the level reader.
+#include "image/sampling.h"
+
+#include <array>
+#include <bit>
+#include <utility>
+
+#include "base/simd_targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "image/sampling.cpp"
+#include <hwy/foreach_target.h>
+
+#include "base/lane_math-inl.h"
+#include "image/sampling-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lapilli {
+namespace HWY_NAMESPACE {
+namespace {
+
+constexpr int kQuads = kLanes / 4;
+
+using LevelFunction = void (*)(const LevelJob&, uint64_t lanes, float* const rgba[4]);
+using FetchFunction = void (*)(const TextureLevel&, const FetchOperands&, uint64_t lanes, float* const rgba[4]);
+
+// Null where the format cannot be sampled.
+struct FormatReaders {
+  LevelFunction nearest = nullptr;
+  LevelFunction linear = nullptr;          // any wrapping
+  LevelFunction linear_repeat = nullptr;   // both axes repeat
+  LevelFunction linear_to_edge = nullptr;  // both axes clamp to the edge
+  FetchFunction fetch = nullptr;
+};
+
+template <size_t kFormat>
+constexpr FormatReaders readers_of() {
+  FormatReaders readers;
+  if constexpr (kFormats[kFormat].has(kSampled)) {
+    using Reader = LevelReader<kFormat>;
+    readers.nearest = Reader::nearest;
+    readers.fetch = Reader::fetch;
+    if constexpr (kFormats[kFormat].has(kFilterable)) {
+      readers.linear = Reader::template linear<WrapAny>;
+      readers.linear_repeat = Reader::template linear<WrapRepeat>;
+      readers.linear_to_edge = Reader::template linear<WrapClampToEdge>;
+    }
+  }
+  return readers;
+}
+
+template <size_t... kIndices>
+constexpr std::array<FormatReaders, sizeof...(kIndices)> make_readers(std::index_sequence<kIndices...>) {
+  return {readers_of<kIndices>()...};
+}
+constexpr std::array<FormatReaders, kFormatCount> kReaders = make_readers(std::make_index_sequence<kFormatCount>());
+
+// A filter that the format does not offer falls back to the nearest texel.
+LevelFunction level_function(const TextureView& view, const SamplerState& sampler, VkFilter filter) {
+  const FormatReaders& readers = kReaders[view.format->index];
+  if (filter == VK_FILTER_NEAREST || readers.linear == nullptr) return readers.nearest;
+  if (sampler.address_u == sampler.address_v && !sampler.unnormalized) {
+    if (sampler.address_u == VK_SAMPLER_ADDRESS_MODE_REPEAT) return readers.linear_repeat;
+    if (sampler.address_u == VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE) return readers.linear_to_edge;
+  }
+  return readers.linear;
+}
+
+struct Registers {
+  alignas(64) float lane[4][kLanes];
+  float* const rgba[4] = {lane[0], lane[1], lane[2], lane[3]};
+};
+
+uint64_t lanes_equal(const int32_t* values, int32_t value) {
+  uint64_t word = 0;
+  for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
+    const uint64_t bits = bits_of(eq(load<I>(values + vector * kVectorLanes), broadcast(value)));
+    word |= bits << (vector * kVectorLanes);
+  }
+  return word;
+}
+
+void copy_lanes(const float* source, uint64_t lanes, float* target) {
+  for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
+    const int first = vector * kVectorLanes;
+    store_where(mask_of(lanes, vector), load<F>(source + first), target + first);
+  }
+}
+
+void fill_lanes(F value, uint64_t lanes, float* target) {
+  for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
+    store_where(mask_of(lanes, vector), value, target + vector * kVectorLanes);
+  }
+}
+
+void write_zero(uint64_t lanes, float* const rgba[4]) {
+  for (int c = 0; c < 4; ++c) fill_lanes(zero_f(), lanes, rgba[c]);
+}
+
+void write_swizzled(const TextureView& view, const Registers& texels, uint64_t lanes, float* const rgba[4]) {
+  for (size_t c = 0; c < 4; ++c) {
+    switch (view.swizzle[c]) {
+      case Swizzle::zero:
+        fill_lanes(zero_f(), lanes, rgba[c]);
+        break;
+      case Swizzle::one:
+        fill_lanes(view.format->is_integer() ? as_f(broadcast(1u)) : broadcast(1.0f), lanes, rgba[c]);
+        break;
+      default:
+        copy_lanes(texels.lane[static_cast<size_t>(view.swizzle[c])], lanes, rgba[c]);
+    }
+  }
+}
+
+void lod_from_derivatives(const TextureView& view, const SamplerState& sampler, const float* u, const float* v,
+                          float* lod) {
+  const float width = sampler.unnormalized ? 1.0f : static_cast<float>(view.levels[0].width);
+  const float height = sampler.unnormalized ? 1.0f : static_cast<float>(view.levels[0].height);
+  // One lane for each quad.
+  alignas(64) float left[2][kQuads], right[2][kQuads], below[2][kQuads], result[kQuads];
+  for (int quad = 0; quad < kQuads; ++quad) {
+    left[0][quad] = u[quad * 4];
+    left[1][quad] = v[quad * 4];
+    right[0][quad] = u[quad * 4 + 1];
+    right[1][quad] = v[quad * 4 + 1];
+    below[0][quad] = u[quad * 4 + 2];
+    below[1][quad] = v[quad * 4 + 2];
+  }
+  for (int quad = 0; quad < kQuads; quad += kVectorLanes) {
+    const F u0 = load<F>(left[0] + quad);
+    const F v0 = load<F>(left[1] + quad);
+    const F du_dx = (load<F>(right[0] + quad) - u0) * broadcast(width);
+    const F dv_dx = (load<F>(right[1] + quad) - v0) * broadcast(height);
+    const F du_dy = (load<F>(below[0] + quad) - u0) * broadcast(width);
+    const F dv_dy = (load<F>(below[1] + quad) - v0) * broadcast(height);
+    const F x_squared = fma(du_dx, du_dx, dv_dx * dv_dx);
+    const F y_squared = fma(du_dy, du_dy, dv_dy * dv_dy);
+    const F squared = max(x_squared, y_squared);
+    const F lambda = broadcast(0.5f) * log2(squared);
+    store(select(unordered(x_squared, y_squared), zero_f(), lambda), result + quad);
+  }
+  for (int lane = 0; lane < kLanes; ++lane) lod[lane] = result[lane / 4];
+}
+
+// What each lane reads.
+struct LevelPlan {
+  alignas(64) int32_t fine[kLanes];    // level
+  alignas(64) int32_t coarse[kLanes];  // the next level, for lanes between two
+  alignas(64) float delta[kLanes];     // weight of the coarser one
+  uint64_t magnified = 0;              // lanes with lambda ≤ 0
+  uint64_t between = 0;                // lanes with delta > 0
+};
+
+void plan_levels(const TextureView& view, const SamplerState& sampler, const SampleOperands& operands,
+                 LevelPlan& plan) {
+  alignas(64) float derived[kLanes];
+  const bool implicit = operands.lod_source == LodSource::derivatives;
+  if (implicit) lod_from_derivatives(view, sampler, operands.u, operands.v, derived);
+  const F last = broadcast(static_cast<float>(view.level_count - 1));
+  for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
+    const int first = vector * kVectorLanes;
+    const F operand = operands.lod != nullptr ? load<F>(operands.lod + first) : zero_f();
+    const F base = implicit ? load<F>(derived + first) : operand;
+    const F shader_bias = implicit ? operand : zero_f();
+    const F bias = clamp_or_low(broadcast(sampler.lod_bias) + shader_bias, broadcast(-kMaxSamplerLodBias),
+                                broadcast(kMaxSamplerLodBias));
+    const F sum = base + bias;
+    const F number = select(is_nan(sum), zero_f(), sum);
+    const F lambda = min(max(number, broadcast(sampler.min_lod)), broadcast(sampler.max_lod));
+    plan.magnified |= bits_of(le(lambda, zero_f())) << first;
+    const F d = clamp_or_low(lambda, zero_f(), last);
+    I fine;
+    F delta = zero_f();
+    if (sampler.mipmap_mode == VK_SAMPLER_MIPMAP_MODE_NEAREST) {
+      fine = truncate_in_range(ceil(d + broadcast(0.5f)) - broadcast(1.0f));
+    } else {
+      fine = truncate_in_range(d);
+      delta = d - to_float(fine);
+    }
+    store(fine, plan.fine + first);
+    store(min(fine + broadcast(1), truncate_in_range(last)), plan.coarse + first);
+    store(delta, plan.delta + first);
+    plan.between |= bits_of(lt(zero_f(), delta)) << first;
+  }
+}
+
+// Each level that some of the lanes read, for those lanes.
+void read_levels(const TextureView& view, LevelFunction function, LevelJob job, const int32_t* levels, uint64_t lanes,
+                 float* const rgba[4]) {
+  while (lanes != 0) {
+    const int32_t level = levels[std::countr_zero(lanes)];
+    const uint64_t here = lanes & lanes_equal(levels, level);
+    job.level = &view.levels[static_cast<size_t>(level)];
+    function(job, here, rgba);
+    lanes &= ~here;
+  }
+}
+
+// With one filter: the finer level, and where delta says so the mix with the coarser one.
+void read_mixed(const TextureView& view, LevelFunction function, const LevelJob& job, const LevelPlan& plan,
+                uint64_t lanes, float* const rgba[4]) {
+  read_levels(view, function, job, plan.fine, lanes, rgba);
+  const uint64_t between = lanes & plan.between;
+  if (between == 0) return;
+  Registers coarser;
+  for (auto& reg : coarser.lane) fill_lanes(zero_f(), ~uint64_t{0}, reg);
+  read_levels(view, function, job, plan.coarse, between, coarser.rgba);
+  for (int c = 0; c < 4; ++c) {
+    for (int first = 0; first < kLanes; first += kVectorLanes) {
+      const F fine = load<F>(rgba[c] + first);
+      const F mixed = fma(load<F>(plan.delta + first), load<F>(coarser.lane[c] + first) - fine, fine);
+      store_where(mask_of(between, first / kVectorLanes), mixed, rgba[c] + first);
+    }
+  }
+}
+
+void sample_2d(const TextureView* view, const SamplerState* sampler, const SampleOperands& operands,
+               float* const rgba[4]) {
+  if (view == nullptr || sampler == nullptr || view->level_count == 0 ||
+      kReaders[view->format->index].nearest == nullptr) {
+    return write_zero(operands.lanes, rgba);
+  }
+  const LevelFunction magnify = level_function(*view, *sampler, sampler->mag_filter);
+  const LevelFunction minify = level_function(*view, *sampler, sampler->min_filter);
+  LevelJob job = {&view->levels[0], sampler, operands.u, operands.v};
+  const bool one_way = view->level_count == 1 && magnify == minify;
+  if (one_way && view->identity_swizzle) return magnify(job, operands.lanes, rgba);
+
+  Registers texels = {};
+  if (one_way) {
+    magnify(job, operands.lanes, texels.rgba);
+  } else {
+    LevelPlan plan;
+    plan_levels(*view, *sampler, operands, plan);
+    const uint64_t magnified = magnify == minify ? 0 : operands.lanes & plan.magnified;
+    read_mixed(*view, magnify, job, plan, magnified, texels.rgba);
+    read_mixed(*view, minify, job, plan, operands.lanes & ~magnified, texels.rgba);
+  }
+  write_swizzled(*view, texels, operands.lanes, rgba);
+}
+
+void fetch_2d(const TextureView* view, const FetchOperands& operands, float* const rgba[4]) {
+  if (view == nullptr || view->level_count == 0 || kReaders[view->format->index].fetch == nullptr) {
+    return write_zero(operands.lanes, rgba);
+  }
+  const FetchFunction fetch = kReaders[view->format->index].fetch;
+  Registers texels = {};
+  for (uint32_t level = 0; level < view->level_count; ++level) {
+    uint64_t here = level == 0 ? operands.lanes : 0;
+    if (operands.level != nullptr) here = operands.lanes & lanes_equal(operands.level, static_cast<int32_t>(level));
+    if (here != 0) fetch(view->levels[level], operands, here, texels.rgba);
+  }
+  write_swizzled(*view, texels, operands.lanes, rgba);
+}
+
+void size_2d(const TextureView* view, const int32_t* level, uint64_t lanes, int32_t* width, int32_t* height) {
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if ((lanes >> lane & 1) == 0) continue;
+    const uint32_t index = level != nullptr ? static_cast<uint32_t>(level[lane]) : 0;
+    const bool present = view != nullptr && index < view->level_count;
+    width[lane] = present ? view->levels[index].width : 0;
+    height[lane] = present ? view->levels[index].height : 0;
+  }
+}
+
+}  // namespace
+
+extern const SamplingFunctions kSampling;
+const SamplingFunctions kSampling = {sample_2d, fetch_2d, size_2d, lod_from_derivatives};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lapilli
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lapilli {
+namespace {
+
+constexpr PerTarget<const SamplingFunctions> kTables = LAPILLI_PER_TARGET(kSampling);
+
+}  // namespace
+
+const SamplingFunctions& sampling_functions() { return for_target(kTables); }
+const SamplingFunctions& sampling_functions(SimdTarget target) { return for_target(kTables, target); }
+
+}  // namespace lapilli
+#endif
