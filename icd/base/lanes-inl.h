@@ -20,6 +20,7 @@
 //   to_float, to_int, to_uint, to_double  conversions: lanes_convert-inl.h; pack_half, unpack_half
 //   mask_of(word, index)      lanes index * kVectorLanes … of a 64-lane word as M; bits_of(m) the other way, unshifted
 //   gather32(base, byte_offsets, m)  32-bit values at base + offset (below 2^31, any alignment), 0 where m is not set
+//   swap_columns, swap_rows   of U, within each 2x2 quad of lanes
 //   canonical(f)              every NaN as 0x7FC00000
 #if defined(LAPILLI_BASE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAPILLI_BASE_LANES_INL_H

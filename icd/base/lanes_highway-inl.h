@@ -262,6 +262,9 @@ HWY_API U gather32(const void* base, U byte_offsets, M m) {
   return load<U>(lanes);
 #endif
 }
+// Within each 2x2 quad: lanes (1, 0, 3, 2) and lanes (2, 3, 0, 1).
+HWY_API U swap_columns(U a) { return hn::Shuffle2301(a); }
+HWY_API U swap_rows(U a) { return hn::Shuffle1032(a); }
 HWY_API U lane_numbers() { return hn::Iota(UTag(), 0); }
 
 }  // namespace HWY_NAMESPACE

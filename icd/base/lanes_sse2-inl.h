@@ -287,6 +287,8 @@ HWY_API U gather32(const void* base, U byte_offsets, M m) {
   }
   return load<U>(lanes);
 }
+HWY_API U swap_columns(U a) { return {_mm_shuffle_epi32(a.raw, _MM_SHUFFLE(2, 3, 0, 1))}; }
+HWY_API U swap_rows(U a) { return {_mm_shuffle_epi32(a.raw, _MM_SHUFFLE(1, 0, 3, 2))}; }
 HWY_API U lane_numbers() { return {_mm_set_epi32(3, 2, 1, 0)}; }
 
 }  // namespace HWY_NAMESPACE
