@@ -1,0 +1,70 @@
+// Compute dispatch: workgroups are cut into chunks, chunks go to threads, a workgroup runs in batches of 64
+// invocations.
+#include "shader/compute.h"
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <new>
+
+namespace lapilli {
+namespace {
+
+// Chunks for each worker: enough that none waits long for the last one.
+constexpr uint64_t kChunksPerWorker = 256;
+
+struct Worker {
+  Execution execution;
+  bool prepared = false;
+};
+
+bool expired(const ExecutionLimits* limits) {
+  return limits != nullptr && limits->expired.load(std::memory_order_relaxed);
+}
+
+void run_workgroup(Execution& execution, uint64_t number, const uint32_t groups[3], uint64_t invocations) {
+  ComputeBatch batch;
+  std::copy_n(groups, 3, batch.num_workgroups);
+  const uint64_t row = number / groups[0];
+  batch.workgroup[0] = static_cast<uint32_t>(number % groups[0]);
+  batch.workgroup[1] = static_cast<uint32_t>(row % groups[1]);
+  batch.workgroup[2] = static_cast<uint32_t>(row / groups[1]);
+  for (uint64_t first = 0; first < invocations; first += kBatchLanes) {
+    batch.first_invocation = static_cast<uint32_t>(first);
+    const uint64_t left = invocations - first;
+    execution.run_invocations(batch, left >= kBatchLanes ? ~uint64_t{0} : (uint64_t{1} << left) - 1);
+  }
+}
+
+}  // namespace
+
+bool dispatch(ThreadPool& pool, const ComputeProgram& program, const ResourceTable& resources, const uint32_t groups[3],
+              ExecutionLimits* limits) {
+  // At most 65535^3 workgroups (VkPhysicalDeviceLimits::maxComputeWorkGroupCount).
+  const uint64_t total = uint64_t{groups[0]} * groups[1] * groups[2];
+  const uint32_t* const size = program.workgroup_size;
+  const uint64_t invocations = uint64_t{size[0]} * size[1] * size[2];
+  if (total == 0 || invocations == 0) return true;
+
+  const std::unique_ptr<Worker[]> workers(new (std::nothrow) Worker[pool.size()]);
+  if (workers == nullptr) return false;
+  const uint64_t chunk = (total - 1) / (pool.size() * kChunksPerWorker) + 1;
+  const size_t chunks = static_cast<size_t>((total - 1) / chunk + 1);
+  std::atomic<bool> out_of_memory{false};
+  pool.parallel_for(chunks, [&](size_t index, unsigned number) {
+    Worker& worker = workers[number];
+    if (!worker.prepared) {
+      worker.prepared = worker.execution.prepare(*program.program, resources, limits);
+      if (!worker.prepared) out_of_memory.store(true, std::memory_order_relaxed);
+    }
+    if (!worker.prepared) return;
+    const uint64_t first = index * chunk;
+    const uint64_t end = std::min(first + chunk, total);
+    for (uint64_t group = first; group < end && !expired(limits); ++group) {
+      run_workgroup(worker.execution, group, groups, invocations);
+    }
+  });
+  return !out_of_memory.load(std::memory_order_relaxed);
+}
+
+}  // namespace lapilli
