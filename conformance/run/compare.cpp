@@ -25,7 +25,7 @@ Difference difference(const samples::Frame& a, const samples::Frame& b, float cl
 OracleError oracle_error(const oracle::Expected& expected, const samples::Frame& frame, bool writes_depth,
                          float clear_depth) {
   const oracle::ImageError color = oracle::compare_color(expected, frame.color);
-  OracleError result = {color.max_abs * 255, color.mean_abs * 255, -1,
+  OracleError result = {color.max_abs * 255, color.mean_abs * 255, color.beyond, -1,
                         oracle::compare_depth(expected, frame.depth).max_abs};
   if (!writes_depth) return result;
   result.coverage = 0;

@@ -21,6 +21,7 @@ Difference difference(const samples::Frame& a, const samples::Frame& b, float cl
 struct OracleError {
   double largest = 0;    // 8-bit steps; rounding alone gives up to 0.5
   double mean = 0;       // 8-bit steps; rounding alone gives 0.25 where values are spread evenly
+  int64_t beyond = 0;    // pixels off by more than one step
   int64_t coverage = 0;  // pixels covered by one and not by the other; -1: the scene writes no depth to tell
   double depth = 0;      // largest |difference|
 };

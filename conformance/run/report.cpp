@@ -51,6 +51,7 @@ constexpr Column kColumns[] = {
      }},
     {"largest error", "/255", [](const SceneReport&, const Row& row, bool) { return number(row.error.largest, 4); }},
     {"mean error", "/255", [](const SceneReport&, const Row& row, bool) { return number(row.error.mean, 5); }},
+    {"off by > 1", "pixels", [](const SceneReport&, const Row& row, bool) { return std::to_string(row.error.beyond); }},
     {"depth error", "",
      [](const SceneReport& report, const Row& row, bool) {
        return report.writes_depth ? scientific(row.error.depth) : "";
@@ -102,7 +103,10 @@ json results(const std::vector<SceneReport>& reports) {
                        {"pipelines", m.timings.pipelines},
                        {"first_frame", m.timings.first_frame},
                        {"median_frame", m.timings.median_frame}};
-        entry["oracle"] = {{"largest", row.error.largest}, {"mean", row.error.mean}, {"depth", row.error.depth}};
+        entry["oracle"] = {{"largest", row.error.largest},
+                           {"mean", row.error.mean},
+                           {"beyond_1", row.error.beyond},
+                           {"depth", row.error.depth}};
         entry["from_first"] = {{"pixels", row.from_first.pixels},
                                {"largest", row.from_first.largest},
                                {"coverage", row.from_first.coverage},
@@ -231,7 +235,7 @@ json page(const std::vector<SceneReport>& reports, const Plan& plan) {
       {{"heading", "All scenes"},
        {"blocks",
         {{{"type", "table"}, {"columns", lines[0]}, {"rows", std::vector(lines.begin() + 1, lines.end())}},
-         plot(reports, "Largest colour error against time", "largest error against float64 [1/255]", false,
+         plot(reports, "Largest colour error against time", "largest error against float64 [1/255]", true,
               [](const SceneReport&, const Row& row) { return row.error.largest; }),
          plot(reports, "Largest depth error against time", "largest depth error", true,
               [](const SceneReport& report, const Row& row) {

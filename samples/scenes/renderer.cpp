@@ -40,16 +40,15 @@ double SceneRenderer::draw_frame() {
   return milliseconds_since(start);
 }
 
-Rendering render_scene(std::string_view name, const SceneOptions& options, const ContextOptions& context_options,
-                       int further_frames) {
+Rendering render_scene(std::unique_ptr<Scene> scene, const ContextOptions& options, int further_frames) {
   Rendering result;
   const Clock::time_point start = Clock::now();
-  const Context context(context_options);
+  const Context context(options);
   result.timings.instance_device = milliseconds_since(start);
   result.device = context.properties().deviceName;
 
   {
-    SceneRenderer renderer(context, create_scene(name, options));
+    SceneRenderer renderer(context, std::move(scene));
     result.timings.pipelines = renderer.pipelines_ms();
     result.timings.first_frame = renderer.draw_frame();
     std::vector<double> frames;
@@ -62,6 +61,7 @@ Rendering render_scene(std::string_view name, const SceneOptions& options, const
     result.frame = renderer.read_back();
   }
   result.messages = context.messages();
+  result.validated = context.validation_active();
   return result;
 }
 

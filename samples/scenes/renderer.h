@@ -40,10 +40,10 @@ struct Rendering {
   Frame frame;
   Timings timings;
   std::vector<std::string> messages;  // of the layers and the driver, with ContextOptions::messages or validation
+  bool validated = false;             // the validation layer was there
 };
 
 // Everything from the instance to the pixels: one first frame and `further_frames` more.
-Rendering render_scene(std::string_view name, const SceneOptions& options, const ContextOptions& context_options,
-                       int further_frames = 0);
+Rendering render_scene(std::unique_ptr<Scene> scene, const ContextOptions& options, int further_frames = 0);
 
 }  // namespace lapilli::samples

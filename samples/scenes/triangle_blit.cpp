@@ -18,9 +18,9 @@
 namespace lapilli::samples {
 namespace {
 
-constexpr uint32_t kPictureWidth = 512;
-constexpr uint32_t kPictureHeight = 384;
-constexpr double kMaskSoftness = 2.0;  // texels
+constexpr uint32_t kPictureWidth = 640;
+constexpr uint32_t kPictureHeight = 480;
+constexpr double kMaskSoftness = 3.0;  // texels
 constexpr Point kScreen = {640, 480};  // the units of TriangleBlitOptions::target
 
 struct Vertex {

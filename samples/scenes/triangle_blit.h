@@ -7,10 +7,10 @@
 namespace lapilli::samples {
 
 struct TriangleBlitOptions {
-  // In the picture, whose size is 512 x 384 texels.
-  Triangle source = {{{192, 40}, {78, 268}, {312, 290}}};
+  // In the picture, whose size is 640 x 480 texels.
+  Triangle source = {{{240, 50}, {98, 335}, {390, 362}}};
   // On the screen, in units of 640 x 480; SceneOptions::angle turns it about its centre.
-  Triangle target = {{{616, 372}, {612, 60}, {364, 248}}};
+  Triangle target = {{{600, 384}, {618, 56}, {372, 226}}};
 };
 
 std::unique_ptr<Scene> create_triangle_blit(const SceneOptions& options);
