@@ -1,64 +1,20 @@
-// Sampling against the float64 reference, extreme coordinates, level selection, and the same bits on every target.
+// Sampling against the float64 reference, extreme coordinates, and the same bits on every target.
 #include "image/sampling.h"
 
 #include <gtest/gtest.h>
 
-#include <bit>
-#include <cfloat>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <random>
 #include <string>
 #include <vector>
 
-#include "image/sampling_reference.h"
+#include "image/sampling_fixture.h"
 
 namespace lapilli {
 namespace {
 
-using reference::Color;
-using reference::Texture;
-
-constexpr uint64_t kAll = ~uint64_t{0};
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr uint32_t kOne = std::bit_cast<uint32_t>(1.0f);
-constexpr VkSamplerAddressMode kModes[] = {VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT,
-                                           VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-                                           VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER};
-constexpr VkFormat kSampledFormats[] = {VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_B8G8R8A8_UNORM,
-                                        VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_D32_SFLOAT};
-
-struct Lanes {
-  alignas(64) float lane[64] = {};
-  float& operator[](size_t i) { return lane[i]; }
-  float operator[](size_t i) const { return lane[i]; }
-};
-struct Rgba {
-  Lanes component[4];
-  float* pointers[4] = {component[0].lane, component[1].lane, component[2].lane, component[3].lane};
-};
-
-SamplerState sampler_of(VkFilter filter, VkSamplerAddressMode u, VkSamplerAddressMode v) {
-  SamplerState sampler;
-  sampler.mag_filter = sampler.min_filter = filter;
-  sampler.address_u = u;
-  sampler.address_v = v;
-  sampler.max_lod = 1000.0f;
-  return sampler;
-}
-
-class Sampling : public testing::TestWithParam<SimdTarget> {
- protected:
-  const SamplingFunctions& functions() const { return sampling_functions(GetParam()); }
-
-  void sample(const Texture& texture, const SamplerState& sampler, const Lanes& u, const Lanes& v, Rgba& out,
-              const Lanes* lod = nullptr) const {
-    const SampleOperands operands = {u.lane, v.lane, lod != nullptr ? lod->lane : nullptr, LodSource::operand, kAll};
-    functions().sample_2d(&texture.view, &sampler, operands, out.pointers);
-  }
-};
+using namespace sampling_test;
 
 INSTANTIATE_TEST_SUITE_P(Targets, Sampling, testing::ValuesIn(supported_simd_targets()),
                          [](const auto& target) { return std::string(simd_target_name(target.param)); });
@@ -198,15 +154,6 @@ TEST_P(Sampling, LinearIsExactOnTexelCentres) {
   }
 }
 
-const std::vector<float>& extremes() {
-  static const std::vector<float> values = {
-      kNan,      -kNan, kInfinity,     -kInfinity, FLT_MAX,        -FLT_MAX,   1e30f,          -1e30f,
-      0.0f,      -0.0f, 1e-45f,        -1e-45f,    0x1p31f,        -0x1p31f,   0x1p32f,        -0x1p32f,
-      0x1p23f,   1e9f,  -1e9f,         16777215.f, -16777215.5f,   1.0f,       0x1.FFFFFEp-1f, -0x1p-25f,
-      -0x1p-30f, 2.0f,  0x1.FFFFFEp0f, -1.0f,      -0x1.000002p0f, 8388607.5f, -8388607.5f,    3.0e38f};
-  return values;
-}
-
 TEST_P(Sampling, ExtremeCoordinatesStayInside) {
   for (VkFormat format : kSampledFormats) {
     for (uint32_t width : {1u, 3u, 64u, 67u}) {
@@ -283,145 +230,6 @@ TEST_P(Sampling, UnnormalizedCoordinatesAreTexels) {
                                  : reference::linear(texture, sampler, 0, double{u[lane]}, double{v[lane]});
       EXPECT_TRUE(near(expected, out, lane, 0x1p-22)) << u[lane] << ' ' << v[lane];
     }
-  }
-}
-
-// Red of level i is i.
-Texture numbered_levels(uint32_t levels) {
-  Texture texture(VK_FORMAT_R32G32B32A32_SFLOAT, 64, 32, levels);
-  for (uint32_t i = 0; i < levels; ++i) texture.fill_level(i, static_cast<float>(i));
-  return texture;
-}
-
-TEST_P(Sampling, LevelsFollowTheSpecification) {
-  const Texture texture = numbered_levels(6);
-  Lanes centre, lod;
-  for (float& value : centre.lane) value = 0.5f;
-  std::mt19937 random(6);
-  for (VkFilter filter : {VK_FILTER_NEAREST, VK_FILTER_LINEAR}) {
-    for (int round = 0; round < 40; ++round) {
-      SamplerState sampler = sampler_of(filter, VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_REPEAT);
-      sampler.mipmap_mode = round % 2 == 0 ? VK_SAMPLER_MIPMAP_MODE_NEAREST : VK_SAMPLER_MIPMAP_MODE_LINEAR;
-      sampler.lod_bias = round % 3 == 0 ? 0.0f : static_cast<float>(random() % 33) * 0.125f - 2.0f;
-      sampler.min_lod = round % 4 == 0 ? 0.75f : 0.0f;
-      sampler.max_lod = round % 5 == 0 ? 3.25f : 1000.0f;
-      for (size_t lane = 0; lane < 64; ++lane) lod[lane] = static_cast<float>(random() % 145) * 0.0625f - 1.5f;
-      Rgba out;
-      sample(texture, sampler, centre, centre, out, &lod);
-      for (size_t lane = 0; lane < 64; ++lane) {
-        const double lambda =
-            std::clamp(double{lod[lane]} + double{sampler.lod_bias}, double{sampler.min_lod}, double{sampler.max_lod});
-        const double d = std::clamp(lambda, 0.0, 5.0);
-        const double expected = round % 2 == 0 ? std::ceil(d + 0.5) - 1.0 : d;  // the levels' values rise linearly
-        EXPECT_EQ(out.component[0][lane], static_cast<float>(expected)) << lod[lane] << " round " << round;
-      }
-    }
-  }
-}
-
-TEST_P(Sampling, ExtremeLodsStayInTheView) {
-  const Texture texture = numbered_levels(6);
-  Lanes centre, lod;
-  for (float& value : centre.lane) value = 0.5f;
-  for (size_t lane = 0; lane < 64; ++lane) lod[lane] = extremes()[lane % extremes().size()];
-  for (VkSamplerMipmapMode mode : {VK_SAMPLER_MIPMAP_MODE_NEAREST, VK_SAMPLER_MIPMAP_MODE_LINEAR}) {
-    for (float bound : {0.0f, kNan, kInfinity, -kInfinity}) {
-      SamplerState sampler =
-          sampler_of(VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_REPEAT);
-      sampler.mipmap_mode = mode;
-      if (bound != 0.0f) sampler.min_lod = sampler.max_lod = sampler.lod_bias = bound;
-      Rgba out;
-      sample(texture, sampler, centre, centre, out, &lod);
-      for (size_t lane = 0; lane < 64; ++lane) {
-        ASSERT_TRUE(out.component[0][lane] >= 0.0f && out.component[0][lane] <= 5.0f);
-        if (bound != 0.0f) continue;
-        if (lod[lane] <= 0.0f || std::isnan(lod[lane])) {
-          EXPECT_EQ(out.component[0][lane], 0.0f) << lod[lane];
-        }
-        if (lod[lane] > 5.0f) {
-          EXPECT_EQ(out.component[0][lane], 5.0f) << lod[lane];
-        }
-      }
-    }
-  }
-}
-
-TEST_P(Sampling, MagnificationHasItsOwnFilter) {
-  Texture texture(VK_FORMAT_R32G32B32A32_SFLOAT, 2, 1, 2);
-  texture.set(0, 0, 0, {0, 0, 0, 0});
-  texture.set(0, 1, 0, {1, 0, 0, 0});
-  texture.set(1, 0, 0, {7, 0, 0, 0});
-  Lanes u, v, lod;
-  for (size_t lane = 0; lane < 64; ++lane) {
-    u[lane] = 0.375f;  // texel 0.75: nearest is 0, linear a quarter of the way
-    v[lane] = 0.5f;
-    lod[lane] = lane % 4 == 0 ? 0.0f : lane % 4 == 1 ? 0.25f : lane % 4 == 2 ? -3.0f : 1.0f;
-  }
-  for (bool linear_magnifies : {false, true}) {
-    SamplerState sampler =
-        sampler_of(VK_FILTER_NEAREST, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE);
-    (linear_magnifies ? sampler.mag_filter : sampler.min_filter) = VK_FILTER_LINEAR;
-    Rgba out;
-    sample(texture, sampler, u, v, out, &lod);
-    for (size_t lane = 0; lane < 64; ++lane) {
-      const bool magnified = lod[lane] <= 0.0f;
-      const float level0 = magnified == linear_magnifies ? 0.25f : 0.0f;
-      EXPECT_EQ(out.component[0][lane], lane % 4 == 3 ? 7.0f : level0) << lod[lane];
-    }
-  }
-}
-
-TEST_P(Sampling, DerivativesGiveTheLod) {
-  Texture texture(VK_FORMAT_R8G8B8A8_UNORM, 64, 32, 6);
-  const SamplerState sampler =
-      sampler_of(VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_REPEAT);
-  Lanes u, v, lod;
-  double expected[16];
-  std::mt19937 random(7);
-  std::uniform_real_distribution<float> step(-0.2f, 0.2f);
-  for (size_t quad = 0; quad < 16; ++quad) {
-    const float ux = step(random), uy = step(random), vx = step(random), vy = step(random);
-    for (size_t lane = 0; lane < 4; ++lane) {
-      u[quad * 4 + lane] = 0.5f + static_cast<float>(lane % 2) * ux + static_cast<float>(lane / 2) * uy;
-      v[quad * 4 + lane] = 0.5f + static_cast<float>(lane % 2) * vx + static_cast<float>(lane / 2) * vy;
-    }
-    const auto along = [&](size_t lane) {
-      return std::hypot((double{u[quad * 4 + lane]} - double{u[quad * 4]}) * 64,
-                        (double{v[quad * 4 + lane]} - double{v[quad * 4]}) * 32);
-    };
-    expected[quad] = std::log2(std::max(along(1), along(2)));
-  }
-  functions().lod_from_derivatives(texture.view, sampler, u.lane, v.lane, lod.lane);
-  for (size_t lane = 0; lane < 64; ++lane) EXPECT_NEAR(lod[lane], expected[lane / 4], 1e-5);
-
-  // Powers of two are exact; no change gives -Inf; NaN 0.
-  for (size_t lane = 0; lane < 64; ++lane) {
-    u[lane] = lane < 32 ? static_cast<float>(lane % 2) * 4.0f / 64.0f : lane < 48 ? 3.0f : kNan;
-    v[lane] = 0.0f;
-  }
-  functions().lod_from_derivatives(texture.view, sampler, u.lane, v.lane, lod.lane);
-  EXPECT_EQ(lod[0], 2.0f);
-  EXPECT_EQ(lod[31], 2.0f);
-  EXPECT_EQ(lod[32], -kInfinity);
-  EXPECT_EQ(lod[63], 0.0f);
-}
-
-TEST_P(Sampling, ImplicitLodReadsTheLevelOfTheFootprint) {
-  const Texture texture = numbered_levels(6);
-  SamplerState sampler = sampler_of(VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_REPEAT);
-  sampler.mipmap_mode = VK_SAMPLER_MIPMAP_MODE_LINEAR;
-  Lanes u, v, bias;
-  for (size_t lane = 0; lane < 64; ++lane) {
-    const float texels = static_cast<float>(1 << (lane / 16));  // 1, 2, 4, 8 texels a pixel: lod 0 … 3
-    u[lane] = static_cast<float>(lane % 2) * texels / 64.0f;
-    v[lane] = 0.25f;
-    bias[lane] = 0.5f;
-  }
-  Rgba out;
-  functions().sample_2d(&texture.view, &sampler, {u.lane, v.lane, bias.lane, LodSource::derivatives, kAll},
-                        out.pointers);
-  for (size_t lane = 0; lane < 64; ++lane) {
-    EXPECT_EQ(out.component[0][lane], static_cast<float>(lane / 16) + 0.5f) << lane;
   }
 }
 

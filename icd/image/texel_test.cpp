@@ -230,7 +230,7 @@ TEST_P(Texels, GathersEveryVertexFormat) {
         uint32_t expected = c == 3 ? one : 0;
         if ((lanes >> lane & 1) != 0 && info.components[c].bits != 0) {
           const std::byte* field = &memory[offsets[lane] + info.components[c].first_bit / 8];
-          std::memcpy(&expected, field, 4);
+          std::memcpy(&expected, field, info.components[c].bits / 8);
           if (info.components[c].kind == ComponentKind::unorm) {
             expected = bits(static_cast<float>(std::to_integer<uint8_t>(*field)) / 255.0f);
           }
