@@ -1,0 +1,16 @@
+// The driver's environment variables: LAPILLI_LOG, LAPILLI_THREADS, LAPILLI_SIMD, LAPILLI_TIMEOUT_MS.
+#pragma once
+
+#include <chrono>
+
+namespace lapilli {
+
+struct Environment {
+  unsigned threads = 1;                      // worker threads of a device
+  std::chrono::milliseconds timeout{10000};  // of one command on the queue, then the device is lost
+};
+
+// Reads them anew: sets the log level and the SIMD target of the process. A value without meaning is a warning.
+Environment read_environment();
+
+}  // namespace lapilli

@@ -1,0 +1,52 @@
+// The extensions that are offered: the one list. Specification: chapter "Extending Vulkan".
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace lapilli {
+
+enum class ExtensionLevel { instance, device };
+
+struct ExtensionInfo {
+  const char* name;
+  uint32_t spec_version;
+  ExtensionLevel level;
+};
+
+inline constexpr std::array kExtensions = {
+    ExtensionInfo{VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_DEBUG_UTILS_SPEC_VERSION, ExtensionLevel::instance},
+    ExtensionInfo{VK_KHR_GET_PHYSICAL_DEVICE_PROPERTIES_2_EXTENSION_NAME,
+                  VK_KHR_GET_PHYSICAL_DEVICE_PROPERTIES_2_SPEC_VERSION, ExtensionLevel::instance},
+};
+
+// Those that an application enabled.
+class ExtensionSet {
+ public:
+  // False if there is no such extension at this level.
+  bool enable(std::string_view name, ExtensionLevel level) {
+    for (size_t i = 0; i < kExtensions.size(); ++i) {
+      if (kExtensions[i].level != level || name != kExtensions[i].name) continue;
+      enabled_ |= uint64_t{1} << i;
+      return true;
+    }
+    return false;
+  }
+  bool has(std::string_view name) const {
+    for (size_t i = 0; i < kExtensions.size(); ++i) {
+      if (name == kExtensions[i].name) return (enabled_ >> i & 1) != 0;
+    }
+    return false;
+  }
+
+ private:
+  uint64_t enabled_ = 0;
+};
+
+// vkEnumerateInstanceExtensionProperties and vkEnumerateDeviceExtensionProperties.
+VkResult enumerate_extensions(ExtensionLevel level, const char* layer, uint32_t* count, VkExtensionProperties* out);
+
+}  // namespace lapilli

@@ -1,0 +1,109 @@
+// Draws are collected for the subpass; dispatches run at once.
+// Specification: chapters "Drawing Commands", "Dispatching Commands".
+#include <cstring>
+
+#include "object/limits.h"
+#include "queue/command_executor.h"
+#include "shader/compute.h"
+
+namespace lapilli {
+namespace {
+
+// The draw with everything bound, its counts still to be filled in; null if it can have no effect.
+DrawCall* add_draw(CommandExecutor& executor, uint32_t count, uint32_t instances) {
+  const Pipeline* pipeline = executor.state.graphics.pipeline;
+  if (executor.pass.pass == nullptr || pipeline == nullptr || count == 0 || instances == 0) return nullptr;
+  // No shader stores (the feature vertexPipelineStoresAndAtomics is not offered), so that nothing is left to do.
+  if (pipeline->graphics.rasterizer_discard) return nullptr;
+  DrawCall& draw = executor.pass.draws.emplace_back();
+  if (!flatten_draw(executor.state, executor.arena, draw)) {
+    executor.fail(VK_ERROR_OUT_OF_HOST_MEMORY, "out of memory for a draw");
+    return nullptr;
+  }
+  draw.count = count;
+  draw.instance_count = instances;
+  draw.samples_passed = executor.samples_passed;
+  return &draw;
+}
+
+void draw(CommandExecutor& executor, const VkDrawIndirectCommand& command) {
+  DrawCall* call = add_draw(executor, command.vertexCount, command.instanceCount);
+  if (call == nullptr) return;
+  call->first = command.firstVertex;
+  call->first_instance = command.firstInstance;
+}
+
+void draw(CommandExecutor& executor, const VkDrawIndexedIndirectCommand& command) {
+  static constexpr std::byte kNoIndices[4] = {};
+  DrawCall* call = add_draw(executor, command.indexCount, command.instanceCount);
+  if (call == nullptr) return;
+  call->first = command.firstIndex;
+  call->vertex_offset = command.vertexOffset;
+  call->first_instance = command.firstInstance;
+  BufferMemory bytes;
+  if (executor.state.index_buffer != nullptr) bytes = executor.state.index_buffer->bytes(executor.state.index_offset);
+  // Without a buffer all indices are outside of it and read as 0.
+  call->indices = {bytes.data != nullptr ? bytes.data : kNoIndices, bytes.size, executor.state.index_type};
+}
+
+// Reads one structure of an indirect command; false if it does not lie in the buffer.
+template <class T>
+bool read(Buffer& buffer, uint64_t offset, T& out) {
+  const BufferMemory bytes = buffer.bytes(offset, sizeof(T));
+  if (bytes.size < sizeof(T)) return false;
+  std::memcpy(&out, bytes.data, sizeof(T));
+  return true;
+}
+
+template <class T>
+void draw_indirect(CommandExecutor& executor, const cmd::DrawIndirect& command) {
+  for (uint32_t i = 0; i < command.count && executor.result == VK_SUCCESS; ++i) {
+    T parameters;
+    if (!read(*command.buffer, command.offset + uint64_t{i} * command.stride, parameters)) return;
+    draw(executor, parameters);
+  }
+}
+
+void run_compute(CommandExecutor& executor, const uint32_t groups[3]) {
+  const Pipeline* pipeline = executor.state.compute.pipeline;
+  if (pipeline == nullptr || groups[0] == 0 || groups[1] == 0 || groups[2] == 0) return;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (groups[axis] > kMaxWorkgroupCount) {
+      log_error("a dispatch of %u x %u x %u workgroups is above the limit", groups[0], groups[1], groups[2]);
+      return;
+    }
+  }
+  ResourceTable resources;
+  ExecutionLimits limits;
+  executor.start(limits);
+  const bool done = flatten_resources(executor.state, executor.state.compute, executor.arena, resources) &&
+                    dispatch(executor.pool, pipeline->compute, resources, groups, &limits);
+  if (!done) executor.fail(VK_ERROR_OUT_OF_HOST_MEMORY, "out of memory for a dispatch");
+  if (limits.expired) executor.fail(VK_ERROR_DEVICE_LOST, "a compute shader ran past the time limit");
+  if (executor.pass.pass == nullptr) executor.arena.reset();
+}
+
+}  // namespace
+
+void execute(CommandExecutor& executor, const cmd::Draw& command) { draw(executor, command.draw); }
+
+void execute(CommandExecutor& executor, const cmd::DrawIndexed& command) { draw(executor, command.draw); }
+
+void execute(CommandExecutor& executor, const cmd::DrawIndirect& command) {
+  if (command.indexed) {
+    draw_indirect<VkDrawIndexedIndirectCommand>(executor, command);
+  } else {
+    draw_indirect<VkDrawIndirectCommand>(executor, command);
+  }
+}
+
+void execute(CommandExecutor& executor, const cmd::Dispatch& command) { run_compute(executor, command.groups); }
+
+void execute(CommandExecutor& executor, const cmd::DispatchIndirect& command) {
+  VkDispatchIndirectCommand parameters;
+  if (!read(*command.buffer, command.offset, parameters)) return;
+  const uint32_t groups[3] = {parameters.x, parameters.y, parameters.z};
+  run_compute(executor, groups);
+}
+
+}  // namespace lapilli
