@@ -47,6 +47,7 @@ int child_main(const ChildOptions& options) try {
   samples::SceneRenderer renderer(context, samples::create_scene(options.scene, options.scene_options));
   const double first_frame = renderer.draw_frame();
   say({{"device", context.properties().deviceName},
+       {"subpixel_bits", context.properties().limits.subPixelPrecisionBits},
        {"instance_device", instance_device.count()},
        {"pipelines", renderer.pipelines_ms()},
        {"first_frame", first_frame}});

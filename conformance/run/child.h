@@ -29,7 +29,8 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  // {"device", "instance_device", "pipelines", "first_frame"} in ms; nothing if the child ended before (how: ended()).
+  // {"device", "subpixel_bits", "instance_device", "pipelines", "first_frame"}, times in ms; nothing if the child ended
+  // before (how: ended()).
   std::optional<nlohmann::json> first_frame();
   // Milliseconds of each of `count` further frames; empty if the child ended.
   std::vector<double> frames(int count);

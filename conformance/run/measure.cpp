@@ -41,6 +41,7 @@ std::vector<Measurement> measure(const std::string& scene, const std::vector<Dri
           ChildOptions{scene, plan.scene_options, plan.scratch + "/" + scene + "." + drivers[i].label + ".pixels"});
       if (const auto first = series[i].child->first_frame()) {
         results[i].device = first->at("device");
+        results[i].subpixel_bits = first->at("subpixel_bits");
         series[i].instance_device.push_back(first->at("instance_device"));
         series[i].pipelines.push_back(first->at("pipelines"));
         series[i].first_frame.push_back(first->at("first_frame"));

@@ -26,7 +26,8 @@ struct Plan {
 struct Measurement {
   Driver driver;
   std::string device;
-  samples::Timings timings;  // medians
+  uint32_t subpixel_bits = 0;  // VkPhysicalDeviceLimits::subPixelPrecisionBits: coverage can only agree if they do
+  samples::Timings timings;    // medians
   std::optional<samples::Frame> frame;
   std::string failure;  // why there is no frame
 };

@@ -70,7 +70,7 @@ def images(block, directory):
 
 def svg(figure):
     text = io.StringIO()
-    figure.savefig(text, format="svg", bbox_inches="tight", metadata={"Date": None})
+    figure.savefig(text, format="svg", bbox_inches="tight", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
     plt.close(figure)
     text = text.getvalue()
     return "<figure>" + text[text.index("<svg"):] + "</figure>\n"

@@ -97,7 +97,8 @@ json results(const std::vector<SceneReport>& reports) {
   for (const SceneReport& report : reports) {
     for (const Row& row : report.rows) {
       const Measurement& m = row.measurement;
-      json entry = {{"scene", report.name}, {"driver", m.driver.label}, {"device", m.device}};
+      json entry = {
+          {"scene", report.name}, {"driver", m.driver.label}, {"device", m.device}, {"subpixel_bits", m.subpixel_bits}};
       if (m.frame) {
         entry["ms"] = {{"instance_device", m.timings.instance_device},
                        {"pipelines", m.timings.pipelines},
@@ -212,7 +213,9 @@ json page(const std::vector<SceneReport>& reports, const Plan& plan) {
   json devices = json::object();
   for (const SceneReport& report : reports) {
     for (const Row& row : report.rows) {
-      if (!row.measurement.device.empty()) devices[row.measurement.driver.label] = row.measurement.device;
+      if (!row.measurement.device.empty())
+        devices[row.measurement.driver.label] =
+            row.measurement.device + " (" + std::to_string(row.measurement.subpixel_bits) + " subpixel bits)";
     }
   }
   std::string names;

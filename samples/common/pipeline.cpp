@@ -82,7 +82,7 @@ Pipeline create_graphics_pipeline(const Context& context, const GraphicsPipeline
   const VkVertexInputBindingDescription binding = {0, info.vertices.stride, VK_VERTEX_INPUT_RATE_VERTEX};
   VkPipelineVertexInputStateCreateInfo vertex_input = {};
   vertex_input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
-  vertex_input.vertexBindingDescriptionCount = 1;
+  vertex_input.vertexBindingDescriptionCount = info.vertices.attributes.empty() ? 0 : 1;
   vertex_input.pVertexBindingDescriptions = &binding;
   vertex_input.vertexAttributeDescriptionCount = static_cast<uint32_t>(info.vertices.attributes.size());
   vertex_input.pVertexAttributeDescriptions = info.vertices.attributes.data();

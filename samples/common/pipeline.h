@@ -8,7 +8,7 @@
 namespace lapilli::samples {
 
 struct VertexLayout {
-  uint32_t stride = 0;  // bytes; one binding, number 0
+  uint32_t stride = 0;  // bytes; one binding, number 0, or none without attributes
   std::span<const VkVertexInputAttributeDescription> attributes;
 };
 
