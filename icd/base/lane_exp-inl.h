@@ -22,12 +22,12 @@ HWY_API F scale(F y, I k) {
   return y * power_of_two(half) * power_of_two(k - half);
 }
 
-// 2^x = 2^k · 2^r with |r| ≤ 1/2. Beyond the limits everything is 0 or ∞.
-HWY_API F exp2(F x) {
+// 2^(x + tail) = 2^k · 2^r with |r| ≤ 1/2, for |tail| below 2^-16. Beyond the limits everything is 0 or ∞.
+HWY_API F exp2_with_tail(F x, F tail) {
   const F clamped = max(min(x, broadcast(129.0f)), broadcast(-151.0f));
   const F magic = broadcast(12582912.0f);  // rounds to an integer, which stands in the low bits
   const F shifted = clamped + magic;
-  const F r = clamped - (shifted - magic);
+  const F r = (clamped - (shifted - magic)) + tail;
   F p = fma(broadcast(0x1.3f906cp-13f), r, broadcast(0x1.5f0a66p-10f));
   p = fma(p, r, broadcast(0x1.3b30b0p-7f));
   p = fma(p, r, broadcast(0x1.c6af78p-5f));
@@ -35,6 +35,7 @@ HWY_API F exp2(F x) {
   p = fma(p, r, broadcast(0x1.62e430p-1f));
   return scale(fma(p, r, broadcast(1.0f)), as_i(shifted) - as_i(magic));
 }
+HWY_API F exp2(F x) { return exp2_with_tail(x, zero_f()); }
 
 // e^x = 2^k · e^r with |r| ≤ ln 2 / 2
 HWY_API F exp(F x) {
@@ -159,15 +160,50 @@ static HWY_NOINLINE HWY_MAYBE_UNUSED F pow_special(F x, F y, F value) {
   return select(eq(y, zero_f()) | eq(x, one), one, r);
 }
 
+// log2(x) = high + low, right to about 2^-31 of its value; x positive and finite.
+struct DoubleFloat {
+  F high;
+  F low;
+};
+HWY_API DoubleFloat log2_in_two(F x) {
+  const LogParts parts = split_for_log(x);
+  // s + s_low = f / (2 + f): log(1 + f) = log((1 + s) / (1 - s)) = 2 s + 2/3 s³ + …
+  const F sum = parts.f + broadcast(2.0f);
+  const F sum_low = parts.f - (sum - broadcast(2.0f));
+  const F inverse = broadcast(1.0f) / sum;
+  const F s = parts.f * inverse;
+  const F minus_s = negate(s);
+  const F s_low = fma(minus_s, sum_low, fma(minus_s, sum, parts.f)) * inverse;
+  const F u = s * s;
+  const F u_low = fma(s, s, negate(u));
+  F q = fma(broadcast(0x1.5906e6p-2f), u, broadcast(0x1.a5cabcp-2f));
+  q = fma(q, u, broadcast(0x1.2776e8p-1f));
+  q = fma(q, u, broadcast(0x1.ec709ep-1f));
+  const F w = q * u;
+  const F w_low = fma(q, u, negate(w)) + q * u_low;
+  // The sum of the linear term, s · 2 / ln 2, and the cubic one, s w, with all their rounding errors.
+  const F two_log2_e = broadcast(0x1.715476p+1f);
+  const F linear = s * two_log2_e;
+  const F cubic = s * w;
+  F low = fma(s, two_log2_e, negate(linear)) + fma(s, w, negate(cubic));
+  low = fma(s, broadcast(0x1.4ae0c0p-25f), low);
+  low = fma(s_low, fma(w, broadcast(3.0f), two_log2_e), low);
+  low = fma(s, w_low, low);
+  const F head = linear + cubic;
+  low = low + (cubic - (head - linear));
+  const F high = parts.k + head;
+  return {high, low + (head - (high - parts.k))};
+}
+
 // As C's powf, all special cases included: pow(x, 0) and pow(1, y) are 1, a negative x has integer powers only.
 HWY_API F pow(F x, F y) {
   const F a = abs(x);
   const M usual = lt(zero_f(), a) & lt(a, infinity()) & is_finite(y);
-  const LogParts parts = split_for_log(select(usual, a, broadcast(1.0f)));
-  const D log2_x = to_double(parts.k) + log2_double(to_double(parts.f) + broadcast(1.0));
-  const D t = to_double(select(usual, y, zero_f())) * log2_x;
-  const D clamped = max(min(t, broadcast(200.0)), broadcast(-200.0));
-  const F value = to_float(exp2_double(clamped));
+  const DoubleFloat log2_x = log2_in_two(select(usual, a, broadcast(1.0f)));
+  const F t = y * log2_x.high;
+  const F tail = fma(y, log2_x.low, fma(y, log2_x.high, negate(t)));
+  // Where t is far beyond float's exponents the tail may be anything, and must not count.
+  const F value = exp2_with_tail(t, select(lt(abs(t), broadcast(160.0f)), tail, zero_f()));
   if (HWY_LIKELY(all(usual & lt(zero_f(), x)))) return value;
   return pow_special(x, y, value);
 }

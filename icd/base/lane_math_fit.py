@@ -41,10 +41,10 @@ def fit(name, function, weight, low, high, count, bits=32, points=160):
 
 
 def main():
-    quarter, tiny = pi / 4 + mpf(2) ** -8, mpf(2) ** -40
-    u_max = quarter**2
-    fit("sin", lambda u: (sin(sqrt(u)) / sqrt(u) - 1) / u, lambda u: u / (sin(sqrt(u)) / sqrt(u)), tiny, u_max, 3)
-    fit("cos", lambda u: (cos(sqrt(u)) - 1 + u / 2) / u**2, lambda u: u**2 / cos(sqrt(u)), tiny, u_max, 3)
+    tiny = mpf(2) ** -40
+    sin_max = (pi / 2 + mpf(2) ** -8) ** 2
+    fit("sin", lambda u: (sin(sqrt(u)) / sqrt(u) - 1) / u, lambda u: u / (sin(sqrt(u)) / sqrt(u)), tiny, sin_max, 5)
+    u_max = (pi / 4 + mpf(2) ** -8) ** 2
     odd = lambda f: (lambda u: (f(sqrt(u)) / sqrt(u) - 1) / u)
     weight = lambda f: (lambda u: u / (f(sqrt(u)) / sqrt(u)))
     fit("tan", odd(tan), weight(tan), tiny, u_max, 7)
@@ -58,6 +58,9 @@ def main():
     fit("exp2, double", lambda r: mpf(2) ** r, lambda r: 1 / mpf(2) ** r, -mpf("0.5"), mpf("0.5"), 9, 64)
     s_max = (sqrt(mpf(2)) - 1) / (sqrt(mpf(2)) + 1) + mpf(2) ** -20
     log2_ratio = lambda u: log((1 + sqrt(u)) / (1 - sqrt(u)), 2) / sqrt(u)
+    s_max = (sqrt(mpf(2)) - 1) / (sqrt(mpf(2)) + 1) + mpf(2) ** -12
+    fit("log2 in two floats, after 2 / ln 2", lambda u: (log2_ratio(u) - 2 / log(2)) / u, lambda u: u / log2_ratio(u),
+        tiny, s_max**2, 4)
     fit("log2, double", log2_ratio, lambda u: 1 / log2_ratio(u), tiny, s_max**2, 6, 64)
 
 

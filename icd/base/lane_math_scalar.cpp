@@ -25,35 +25,47 @@ Wide table_bits(unsigned first) {
   return bits;
 }
 
+// |angle| in quarter turns modulo 4, with 126 bits of fraction. |angle| = significand · 2^exponent; bits of 2/π that
+// make multiples of 4 in the product are left out.
+Wide quarter_turns_of(std::uint32_t bits) {
+  const std::uint32_t significand = (bits & 0x7FFFFF) | 0x800000;
+  const int exponent = static_cast<int>(bits >> 23 & 255) - 150;
+  return significand * table_bits(static_cast<unsigned>(exponent - 2 + kLeadingZeros));
+}
+
+bool finite(std::uint32_t bits) { return (bits >> 23 & 255) != 255; }
+
+// No float comes closer than about 2^-30 to a multiple of π/2, so that what the conversion of a fraction to double
+// loses is far below a float's last place.
+constexpr double kPi = 0x1.921fb54442d18p+1;
+
 }  // namespace
 
-std::uint32_t reduce_large_angle(float angle, float* r, float* tail) {
+std::uint32_t reduce_to_half_turn(float angle, std::uint32_t quarter_turns, float* r) {
   const auto bits = std::bit_cast<std::uint32_t>(angle);
-  const unsigned biased = bits >> 23 & 255;
-  if (biased == 255) {
+  if (!finite(bits)) {
+    *r = std::numeric_limits<float>::quiet_NaN();
+    return 0;
+  }
+  const Wide turns = quarter_turns_of(bits) + (static_cast<Wide>(quarter_turns) << 126);
+  // The upper bit counts half turns; the rest is their fraction, taken as a signed number in [-1/2, 1/2).
+  const auto fraction = static_cast<__int128>(turns << 1);
+  *r = static_cast<float>(static_cast<double>(fraction) * 0x1p-128 * kPi);
+  return static_cast<std::uint32_t>(turns >> 127) + (fraction < 0 ? 1 : 0);
+}
+
+std::uint32_t reduce_to_quadrant(float angle, float* r, float* tail) {
+  const auto bits = std::bit_cast<std::uint32_t>(angle);
+  if (!finite(bits)) {
     *r = *tail = std::numeric_limits<float>::quiet_NaN();
     return 0;
   }
-  // |angle| = significand · 2^exponent. Bits of 2/π that make multiples of 4 in the product are left out; what remains
-  // is the product modulo 4, with 126 bits of fraction.
-  const std::uint32_t significand = (bits & 0x7FFFFF) | 0x800000;
-  const int exponent = static_cast<int>(biased) - 150;
-  const Wide product = significand * table_bits(static_cast<unsigned>(exponent - 2 + kLeadingZeros));
-
-  // To the nearest quadrant: the fraction as a signed number in [-1/2, 1/2).
-  auto quadrant = static_cast<std::uint32_t>(product >> 126);
-  const auto fraction = static_cast<__int128>(product << 2);
-  if (fraction < 0) ++quadrant;
-
-  // Fewer than 2^-60 of the fraction is lost by the conversion, for no float comes closer than about 2^-30 to a
-  // multiple of π/2.
-  constexpr double kHalfPi = 0x1.921fb54442d18p+0;
-  const double reduced = static_cast<double>(fraction) * 0x1p-128 * kHalfPi;
-  const bool negative = bits >> 31 != 0;
-  const double signed_reduced = negative ? -reduced : reduced;
-  *r = static_cast<float>(signed_reduced);
-  *tail = static_cast<float>(signed_reduced - static_cast<double>(*r));
-  return (negative ? 0u - quadrant : quadrant) & 3u;
+  const Wide turns = quarter_turns_of(bits);
+  const auto fraction = static_cast<__int128>(turns << 2);
+  const double reduced = static_cast<double>(fraction) * 0x1p-128 * (kPi / 2);
+  *r = static_cast<float>(reduced);
+  *tail = static_cast<float>(reduced - static_cast<double>(*r));
+  return static_cast<std::uint32_t>(turns >> 126) + (fraction < 0 ? 1 : 0);
 }
 
 float exact_remainder(float x, float y) {

@@ -5,9 +5,11 @@
 
 namespace lapilli {
 
-// angle = quadrant · π/2 + r + tail, |r| ≤ π/4, correct to 24 bits of r and more by the tail; for angle ≥ 2^6, NaN or ∞
-// (r and tail are NaN then). Returns the quadrant modulo 4. (Payne and Hanek's method.)
-std::uint32_t reduce_large_angle(float angle, float* r, float* tail);
+// Reduction of large angles by Payne and Hanek's method, for angle ≥ 64, infinite or NaN (r and tail are NaN then).
+// |angle| + quarter_turns · π/2 = k π + r with |r| ≤ π/2, r rounded to nearest give or take little; returns k modulo 2.
+std::uint32_t reduce_to_half_turn(float angle, std::uint32_t quarter_turns, float* r);
+// |angle| = k · π/2 + r + tail with |r| ≤ π/4; returns k modulo 4.
+std::uint32_t reduce_to_quadrant(float angle, float* r, float* tail);
 
 // The exact remainder of |x| / |y| with the sign of x; x finite, y finite and not 0.
 float exact_remainder(float x, float y);

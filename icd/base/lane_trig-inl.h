@@ -14,107 +14,110 @@ HWY_BEFORE_NAMESPACE();
 namespace lapilli {
 namespace HWY_NAMESPACE {
 
-// π/2 and π in floats whose sum is right to twice or three times 24 bits.
+// π and π/2 in floats whose sum is right to two or three times 24 bits.
+inline constexpr float kPi1 = 0x1.921fb6p+1f;
+inline constexpr float kPi2 = -0x1.777a5cp-24f;
+inline constexpr float kPi3 = -0x1.ee59dap-49f;
 inline constexpr float kHalfPi1 = 0x1.921fb6p+0f;
 inline constexpr float kHalfPi2 = -0x1.777a5cp-25f;
 inline constexpr float kHalfPi3 = -0x1.ee59dap-50f;
-inline constexpr float kPi1 = 0x1.921fb6p+1f;
-inline constexpr float kPi2 = -0x1.777a5cp-24f;
 // Adding it leaves no bits below 1: rounds to an integer, which stands in the low bits of the sum.
 inline constexpr float kRoundToInteger = 12582912.0f;  // 1.5 · 2^23
+// Up to here the reductions in three parts (Cody and Waite, with fma) are precise.
+inline constexpr float kLargeAngle = 65536.0f;
+
+// (-1)^odd · sin(r) for |r| ≤ π/2 and some; `odd` in the lowest bit, upper bits are ignored.
+HWY_API F signed_sin(F r, U odd) {
+  const F u = r * r;
+  F p = fma(broadcast(-0x1.add9aap-26f), u, broadcast(0x1.727032p-19f));
+  p = fma(p, u, broadcast(-0x1.a02128p-13f));
+  p = fma(p, u, broadcast(0x1.111130p-7f));
+  p = fma(p, u, broadcast(-0x1.555556p-3f));
+  // At ±1 the rounding errors may add up to one place too much.
+  const F value = max(min(fma(r, u * p, r), broadcast(1.0f)), broadcast(-1.0f));
+  return flip_sign(value, shift_left<31>(odd));
+}
+// sin(angle + quarter_turns · π/2) for the lanes `large`, the rest from `value`.
+static HWY_NOINLINE HWY_MAYBE_UNUSED F sin_of_large(F angle, uint32_t quarter_turns, M large, F value) {
+  alignas(64) float angles[kVectorLanes];
+  alignas(64) float r[kVectorLanes] = {};
+  alignas(64) uint32_t odd[kVectorLanes] = {};
+  store(angle, angles);
+  const uint64_t bits = bits_of(large);
+  for (int lane = 0; lane < kVectorLanes; ++lane) {
+    if ((bits >> lane & 1) != 0) odd[lane] = reduce_to_half_turn(angles[lane], quarter_turns, &r[lane]);
+  }
+  return select(large, signed_sin(load<F>(r), load<U>(odd)), value);
+}
+
+// sin(angle) = (-1)^k sin(r) with r = angle - k π. angle ≥ 0 keeps the sign of zero out of the polynomial.
+HWY_API F sin(F x) {
+  const F angle = abs(x);
+  const F shifted = fma(angle, broadcast(0x1.45f306p-2f), broadcast(kRoundToInteger));
+  const F k = shifted - broadcast(kRoundToInteger);
+  // Exact: the difference is a multiple of angle's last place or of 2^-23, and less than 2.
+  F r = fma(k, broadcast(-kPi1), angle);
+  // If this cancels, its rounding error shrinks with it.
+  r = fma(k, broadcast(-kPi2), r);
+  r = fma(k, broadcast(-kPi3), r);
+  F value = signed_sin(r, as_u(shifted));
+  const M large = ~lt(angle, broadcast(kLargeAngle));
+  if (HWY_UNLIKELY(any(large))) value = sin_of_large(angle, 0, large, value);
+  return flip_sign(value, sign_bit(x));
+}
+// cos(angle) = sin(angle + π/2) = (-1)^k sin(r) with r = angle - (k - 1/2) π.
+HWY_API F cos(F x) {
+  const F angle = abs(x);
+  const F shifted = fma(angle, broadcast(0x1.45f306p-2f), broadcast(0.5f)) + broadcast(kRoundToInteger);
+  const F k = (shifted - broadcast(kRoundToInteger)) - broadcast(0.5f);
+  F r = fma(k, broadcast(-kPi1), angle);
+  r = fma(k, broadcast(-kPi2), r);
+  r = fma(k, broadcast(-kPi3), r);
+  F value = signed_sin(r, as_u(shifted));
+  const M large = ~lt(angle, broadcast(kLargeAngle));
+  if (HWY_UNLIKELY(any(large))) value = sin_of_large(angle, 1, large, value);
+  return value;
+}
 
 // An angle is quadrant · π/2 + r + tail with |r| ≤ π/4 and |tail| at most half the last place of r.
-struct ReducedAngle {
+struct QuadrantAngle {
   F r;
   F tail;
   U quadrant;  // modulo 4; upper bits are undefined
 };
-
-// Up to here the three-part reduction below is precise.
-inline constexpr float kLargeAngle = 65536.0f;
-
-static HWY_NOINLINE HWY_MAYBE_UNUSED void reduce_large(F angle, M large, ReducedAngle* reduced) {
+static HWY_NOINLINE HWY_MAYBE_UNUSED QuadrantAngle reduce_large(F angle, M large, QuadrantAngle reduced) {
   alignas(64) float angles[kVectorLanes];
   alignas(64) float r[kVectorLanes];
   alignas(64) float tail[kVectorLanes];
   alignas(64) uint32_t quadrant[kVectorLanes];
   store(angle, angles);
-  store(reduced->r, r);
-  store(reduced->tail, tail);
-  store(reduced->quadrant, quadrant);
+  store(reduced.r, r);
+  store(reduced.tail, tail);
+  store(reduced.quadrant, quadrant);
   const uint64_t bits = bits_of(large);
   for (int lane = 0; lane < kVectorLanes; ++lane) {
-    if ((bits >> lane & 1) != 0) quadrant[lane] = reduce_large_angle(angles[lane], &r[lane], &tail[lane]);
+    if ((bits >> lane & 1) != 0) quadrant[lane] = reduce_to_quadrant(angles[lane], &r[lane], &tail[lane]);
   }
-  reduced->r = load<F>(r);
-  reduced->tail = load<F>(tail);
-  reduced->quadrant = load<U>(quadrant);
+  return {load<F>(r), load<F>(tail), load<U>(quadrant)};
 }
-
-// angle ≥ 0, as k · π/2 + r1 (Cody and Waite, with fma), up to the parts of π/2 after the first.
-struct AngleStep {
-  F k;
-  F r1;
-  U quadrant;
-};
-HWY_API AngleStep first_reduction(F angle) {
+// angle ≥ 0
+HWY_API QuadrantAngle reduce_angle(F angle) {
   const F shifted = fma(angle, broadcast(0x1.45f306p-1f), broadcast(kRoundToInteger));
   const F k = shifted - broadcast(kRoundToInteger);
-  // Exact: the difference is a multiple of angle's last place or of 2^-24, and less than 1.
-  return {k, fma(k, broadcast(-kHalfPi1), angle), as_u(shifted)};
-}
-// r rounded to a float, no tail. If the second step cancels, its rounding error shrinks with its result.
-HWY_API ReducedAngle reduce_angle(F angle) {
-  const AngleStep step = first_reduction(angle);
-  const F r2 = fma(step.k, broadcast(-kHalfPi2), step.r1);
-  ReducedAngle reduced = {fma(step.k, broadcast(-kHalfPi3), r2), zero_f(), step.quadrant};
-  const M large = ~lt(angle, broadcast(kLargeAngle));
-  if (HWY_UNLIKELY(any(large))) reduce_large(angle, large, &reduced);
-  return reduced;
-}
-HWY_API ReducedAngle reduce_angle_with_tail(F angle) {
-  const AngleStep step = first_reduction(angle);
-  const F second = step.k * broadcast(-kHalfPi2);
-  const F second_error = fma(step.k, broadcast(-kHalfPi2), negate(second));
-  const F r2 = step.r1 + second;
-  const F rest = (second - (r2 - step.r1)) + fma(step.k, broadcast(-kHalfPi3), second_error);
+  const F r1 = fma(k, broadcast(-kHalfPi1), angle);  // exact, as in sin
+  const F second = k * broadcast(-kHalfPi2);
+  const F second_error = fma(k, broadcast(-kHalfPi2), negate(second));
+  const F r2 = r1 + second;
+  const F rest = (second - (r2 - r1)) + fma(k, broadcast(-kHalfPi3), second_error);
   const F r = r2 + rest;
-  ReducedAngle reduced = {r, (r2 - r) + rest, step.quadrant};
+  QuadrantAngle reduced = {r, (r2 - r) + rest, as_u(shifted)};
   const M large = ~lt(angle, broadcast(kLargeAngle));
-  if (HWY_UNLIKELY(any(large))) reduce_large(angle, large, &reduced);
+  if (HWY_UNLIKELY(any(large))) reduced = reduce_large(angle, large, reduced);
   return reduced;
 }
 
-// |r| ≤ π/4, u = r²
-HWY_API F sin_polynomial(F r, F u) {
-  F p = fma(broadcast(-0x1.992580p-13f), u, broadcast(0x1.1106d8p-7f));
-  p = fma(p, u, broadcast(-0x1.555544p-3f));
-  return fma(r * u, p, r);
-}
-HWY_API F cos_polynomial(F u) {
-  F p = fma(broadcast(0x1.99e42cp-16f), u, broadcast(-0x1.6c0c20p-10f));
-  p = fma(p, u, broadcast(0x1.55554ap-5f));
-  p = fma(p, u, broadcast(-0.5f));
-  return fma(p, u, broadcast(1.0f));
-}
-// sin(quadrant · π/2 + r)
-HWY_API F sin_of_reduced(F r, U quadrant) {
-  const F u = r * r;
-  const M odd = ne(quadrant & broadcast(1u), zero_u());
-  const F value = select(odd, cos_polynomial(u), sin_polynomial(r, u));
-  return flip_sign(value, shift_left<30>(quadrant & broadcast(2u)));
-}
-
-HWY_API F sin(F x) {
-  const ReducedAngle a = reduce_angle(abs(x));
-  return flip_sign(sin_of_reduced(a.r, a.quadrant), sign_bit(x));
-}
-HWY_API F cos(F x) {
-  const ReducedAngle a = reduce_angle(abs(x));
-  return sin_of_reduced(a.r, a.quadrant + broadcast(1u));
-}
 HWY_API F tan(F x) {
-  const ReducedAngle a = reduce_angle_with_tail(abs(x));
+  const QuadrantAngle a = reduce_angle(abs(x));
   const F u = a.r * a.r;
   F p = fma(broadcast(0x1.225efcp-8f), u, broadcast(-0x1.61d1eap-16f));
   p = fma(p, u, broadcast(0x1.65f652p-7f));

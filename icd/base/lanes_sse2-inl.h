@@ -259,11 +259,23 @@ HWY_API __m128d add_to_odd(__m128d a, __m128d b) {
   const __m128i signed_step = _mm_sub_epi64(_mm_xor_si128(step, inward), inward);
   return _mm_castsi128_pd(_mm_add_epi64(bits, signed_step));
 }
-// The product of two floats is exact in double.
+static HWY_NOINLINE HWY_MAYBE_UNUSED F fma_to_odd(D product, D addend) {
+  return to_float(D{add_to_odd(product.low, addend.low), add_to_odd(product.high, addend.high)});
+}
+// The product of two floats is exact in double. Rounding the sum to double and then to float goes wrong only where the
+// double lies halfway between two floats: its low 29 bits are 1000…, or the float is denormal, where more bits count.
 HWY_API F fma(F a, F b, F c) {
   const D product = to_double(a) * to_double(b);
   const D addend = to_double(c);
-  return to_float(D{add_to_odd(product.low, addend.low), add_to_odd(product.high, addend.high)});
+  const D sum = product + addend;
+  const __m128 low_words = _mm_shuffle_ps(_mm_castpd_ps(sum.low), _mm_castpd_ps(sum.high), _MM_SHUFFLE(2, 0, 2, 0));
+  const __m128 high_words = _mm_shuffle_ps(_mm_castpd_ps(sum.low), _mm_castpd_ps(sum.high), _MM_SHUFFLE(3, 1, 3, 1));
+  const I low = {_mm_castps_si128(low_words)};
+  const I magnitude = I{_mm_castps_si128(high_words)} & broadcast(0x7FFFFFFF);
+  const M halfway = eq(low & broadcast(0x1FFFFFFF), broadcast(0x10000000));
+  const M denormal = lt(broadcast(0), magnitude) & lt(magnitude, broadcast((1023 - 126) << 20));
+  if (HWY_UNLIKELY(any(halfway | denormal))) return fma_to_odd(product, addend);
+  return to_float(sum);
 }
 
 // Words of lanes.
