@@ -1,0 +1,49 @@
+// The generated tables and their look-up.
+#include "shader/spirv/grammar.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace lapilli {
+namespace {
+
+constexpr SpirvOpInfo kInstructions[] = {
+#define SPIRV_INST(opcode, name, signature) {opcode, name, signature},
+#define SPIRV_NAME(kind, value, name)
+#include "shader/spirv/grammar.inc"
+#undef SPIRV_INST
+#undef SPIRV_NAME
+};
+
+struct EnumName {
+  SpirvEnum kind;
+  uint32_t value;
+  const char* name;
+};
+constexpr EnumName kNames[] = {
+#define SPIRV_INST(opcode, name, signature)
+#define SPIRV_NAME(kind, value, name) {SpirvEnum::kind, value, name},
+#include "shader/spirv/grammar.inc"
+#undef SPIRV_INST
+#undef SPIRV_NAME
+};
+
+constexpr const char* kEnumNames[] = {"BuiltIn",       "Capability",     "Decoration", "Dim",
+                                      "ExecutionMode", "ExecutionModel", "ExtInst",    "StorageClass"};
+
+}  // namespace
+
+const SpirvOpInfo* find_spirv_op(uint32_t opcode) {
+  const auto at = std::lower_bound(std::begin(kInstructions), std::end(kInstructions), opcode,
+                                   [](const SpirvOpInfo& info, uint32_t key) { return info.opcode < key; });
+  return at != std::end(kInstructions) && at->opcode == opcode ? &*at : nullptr;
+}
+
+std::string spirv_enum_name(SpirvEnum kind, uint32_t value) {
+  for (const EnumName& entry : kNames) {
+    if (entry.kind == kind && entry.value == value) return entry.name;
+  }
+  return std::string(kEnumNames[static_cast<size_t>(kind)]) + " " + std::to_string(value);
+}
+
+}  // namespace lapilli

@@ -1,0 +1,348 @@
+// Puts the fixed-function parts around the lowered shaders: prologues that feed inputs, epilogues that take outputs;
+// and links the stages. Prologues are made last, for the inputs that turn out to be read, and moved to the front.
+#include "shader/stage.h"
+
+#include <algorithm>
+#include <array>
+
+#include "shader/fixed_function.h"
+#include "shader/spirv/lower.h"
+#include "shader/stage_code.h"
+
+namespace lapilli {
+namespace {
+
+constexpr uint32_t kMostResults = 16;
+
+void finish(LoweredShader& shader) {
+  shader.code.place_label(shader.end_label);
+  shader.code.append(Opcode::end);
+}
+
+// Instructions from `first` on come before all others.
+void move_to_front(Code& code, size_t first) {
+  const uint32_t count = static_cast<uint32_t>(code.instructions.size() - first);
+  const auto begin = code.instructions.begin();
+  std::rotate(begin, begin + static_cast<std::ptrdiff_t>(first), code.instructions.end());
+  for (uint32_t& label : code.labels) {
+    if (label != kNoLabelPosition) label += count;
+  }
+}
+
+Instruction& append_to(Code& code, Opcode op, Reg dst, uint32_t results) {
+  Instruction& instruction = code.append(op);
+  instruction.dst = dst;
+  instruction.results = static_cast<uint8_t>(results);
+  return instruction;
+}
+
+// --- built-in inputs
+// ---------------------------------------------------------------------------------------------------
+
+BuiltIn input_of(spv::BuiltIn built_in) {
+  switch (built_in) {
+    case spv::BuiltIn::VertexIndex:
+      return BuiltIn::vertex_index;
+    case spv::BuiltIn::InstanceIndex:
+      return BuiltIn::instance_index;
+    case spv::BuiltIn::FragCoord:
+      return BuiltIn::frag_coord_x;
+    case spv::BuiltIn::FrontFacing:
+      return BuiltIn::front_facing;
+    case spv::BuiltIn::HelperInvocation:
+      return BuiltIn::helper_invocation;
+    case spv::BuiltIn::NumWorkgroups:
+      return BuiltIn::num_workgroups_x;
+    case spv::BuiltIn::WorkgroupId:
+      return BuiltIn::workgroup_x;
+    case spv::BuiltIn::LocalInvocationId:
+      return BuiltIn::local_invocation_x;
+    case spv::BuiltIn::GlobalInvocationId:
+      return BuiltIn::global_invocation_x;
+    default:
+      return BuiltIn::local_invocation_index;
+  }
+}
+
+void emit_built_ins(LoweredShader& shader, const std::vector<bool>& live) {
+  for (const InterfaceBuiltIn& input : shader.built_in_inputs) {
+    const bool position = input.built_in == spv::BuiltIn::FragCoord;  // z and w: emit_fragment_prologue
+    const size_t count = position ? 2 : input.regs.size();
+    for (uint32_t i = 0; i < count; ++i) {
+      if (live[input.regs[i]])
+        append_to(shader.code, Opcode::builtin, input.regs[i], 1).imm =
+            static_cast<uint32_t>(input_of(input.built_in)) + i;
+    }
+  }
+}
+
+const InterfaceBuiltIn* find_built_in(const std::vector<InterfaceBuiltIn>& all, spv::BuiltIn which) {
+  const auto at = std::find_if(all.begin(), all.end(), [&](const InterfaceBuiltIn& b) { return b.built_in == which; });
+  return at == all.end() ? nullptr : &*at;
+}
+
+// --- vertex
+// ------------------------------------------------------------------------------------------------------------
+
+// A fetch gives components from the first on; those that nobody reads cost nothing to speak of. An attribute that the
+// pipeline does not have reads as 0 0 0 1.
+void emit_fetches(LoweredShader& shader, const GraphicsState& state, const std::vector<bool>& live) {
+  Code& code = shader.code;
+  code.attributes.assign(state.attributes.begin(), state.attributes.end());
+  const std::vector<InterfaceComponent>& inputs = shader.inputs;
+  for (size_t first = 0; first < inputs.size();) {
+    size_t end = first + 1;
+    while (end < inputs.size() && inputs[end].location == inputs[first].location &&
+           inputs[end].component == inputs[end - 1].component + 1 && inputs[end].reg == inputs[end - 1].reg + 1)
+      ++end;
+    size_t used = end;
+    while (used > first && !live[inputs[used - 1].reg]) --used;
+    const auto at = std::find_if(state.attributes.begin(), state.attributes.end(),
+                                 [&](const VertexAttribute& each) { return each.location == inputs[first].location; });
+    const uint32_t attribute = static_cast<uint32_t>(at - state.attributes.begin());
+    const uint32_t offset = inputs[first].component;
+    if (used == first) {
+      // Not read.
+    } else if (at == state.attributes.end()) {
+      for (size_t i = first; i < used; ++i) {
+        const bool last = inputs[i].component == 3;
+        const Reg one = inputs[i].integer ? code.constant(1) : code.constant_f(1.0f);
+        code.emit_to(Opcode::mov, inputs[i].reg, last ? one : code.constant(0));
+      }
+    } else if (offset == 0) {
+      append_to(code, Opcode::fetch, inputs[first].reg, static_cast<uint32_t>(used - first)).imm = attribute;
+    } else {
+      const uint32_t count = offset + static_cast<uint32_t>(used - first);
+      const Reg fetched = code.emit_n(Opcode::fetch, count, kNoReg, kNoReg, kNoReg, attribute);
+      for (size_t i = first; i < used; ++i) code.emit_to(Opcode::mov, inputs[i].reg, fetched + inputs[i].component);
+    }
+    first = end;
+  }
+}
+
+// The fragment program's inputs in the order of their slots.
+using Varyings = std::vector<InterfaceComponent>;
+
+void emit_outputs(LoweredShader& shader, const Varyings& varyings) {
+  Code& code = shader.code;
+  code.output_slots = kSlotVaryings + static_cast<uint32_t>(varyings.size());
+  const auto store = [&](uint32_t slot, Reg reg) { code.emit_void(Opcode::store_output, reg, kNoReg, kNoReg, slot); };
+  const InterfaceBuiltIn* position = find_built_in(shader.built_in_outputs, spv::BuiltIn::Position);
+  for (uint32_t i = 0; i < 4; ++i) store(kSlotPosition + i, position != nullptr ? position->regs[i] : code.constant(0));
+  const InterfaceBuiltIn* size = find_built_in(shader.built_in_outputs, spv::BuiltIn::PointSize);
+  store(kSlotPointSize, size != nullptr ? size->regs[0] : code.constant_f(1.0f));
+  for (uint32_t slot = 0; slot < varyings.size(); ++slot) {
+    const auto at = std::find_if(shader.outputs.begin(), shader.outputs.end(), [&](const InterfaceComponent& output) {
+      return output.location == varyings[slot].location && output.component == varyings[slot].component;
+    });
+    store(kSlotVaryings + slot, at != shader.outputs.end() ? at->reg : code.constant(0));
+  }
+}
+
+Result<Code> make_vertex_code(const ShaderStage& stage, const GraphicsState& state, const ResourceLayout& layout,
+                              const Varyings& varyings) {
+  Result<LoweredShader> shader = lower_shader(stage, VK_SHADER_STAGE_VERTEX_BIT, layout);
+  if (!shader) return shader.error();
+  emit_outputs(*shader, varyings);
+  finish(*shader);
+  const std::vector<bool> live = find_live_registers(shader->code);
+  const size_t first = shader->code.instructions.size();
+  emit_built_ins(*shader, live);
+  emit_fetches(*shader, state, live);
+  move_to_front(shader->code, first);
+  return std::move(shader->code);
+}
+
+// --- fragment
+// ----------------------------------------------------------------------------------------------------------
+
+struct DepthPlan {
+  bool active = false;
+  bool late = false;
+  uint32_t flags = 0;  // of depth_test
+};
+
+DepthPlan plan_depth(const LoweredShader& shader, const GraphicsState& state) {
+  constexpr uint32_t kWrites = 8;
+  DepthPlan plan;
+  if (!state.depth_test) return plan;
+  plan.active = state.depth_write || state.depth_compare != VK_COMPARE_OP_ALWAYS;
+  plan.flags = static_cast<uint32_t>(state.depth_compare) | (state.depth_write ? kWrites : 0);
+  const bool replaces = find_built_in(shader.built_in_outputs, spv::BuiltIn::FragDepth) != nullptr;
+  plan.late = !shader.early_fragment_tests && (replaces || shader.stores || (shader.kills && state.depth_write));
+  return plan;
+}
+
+// Behind the shader: late depth, the count of samples that passed, colours.
+Result<void> emit_fragment_epilogue(LoweredShader& shader, const GraphicsState& state, const DepthPlan& depth,
+                                    Reg depth_reg) {
+  Code& code = shader.code;
+  if (depth.active && depth.late) {
+    Reg z = depth_reg;
+    if (const InterfaceBuiltIn* replaced = find_built_in(shader.built_in_outputs, spv::BuiltIn::FragDepth)) {
+      const Reg above = code.emit(Opcode::fmax, code.constant(0), replaced->regs[0]);
+      z = code.emit(Opcode::fmin, code.constant_f(1.0f), above);
+    }
+    code.emit_void(Opcode::depth_test, z, kNoReg, kNoReg, depth.flags, shader.end_label);
+  }
+  code.append(Opcode::count_samples);
+  for (uint32_t i = 0; i < state.color_formats.size() && i < state.blend.size(); ++i) {
+    if (state.color_formats[i] == VK_FORMAT_UNDEFINED) continue;
+    std::array<Reg, 4> color{code.constant(0), code.constant(0), code.constant(0), code.constant_f(1.0f)};
+    bool written = false;
+    for (const InterfaceComponent& output : shader.outputs) {
+      if (output.location != i) continue;
+      color[output.component] = output.reg;
+      written = true;
+    }
+    if (!written) continue;
+    if (Result<void> r = emit_color(code, i, state.blend[i], color); !r) return r;
+  }
+  return {};
+}
+
+// The inputs that are read, and their slots in order of Location and Component.
+Varyings link_varyings(const LoweredShader& shader, const std::vector<bool>& live) {
+  Varyings varyings;
+  for (const InterfaceComponent& input : shader.inputs) {
+    if (live[input.reg]) varyings.push_back(input);
+  }
+  std::stable_sort(varyings.begin(), varyings.end(), [](const InterfaceComponent& a, const InterfaceComponent& b) {
+    return a.location != b.location ? a.location < b.location : a.component < b.component;
+  });
+  return varyings;
+}
+
+// Before the shader: early depth, interpolation.
+void emit_fragment_prologue(LoweredShader& shader, const DepthPlan& depth, Reg depth_reg, const Varyings& varyings,
+                            const std::vector<bool>& live) {
+  Code& code = shader.code;
+  const InterfaceBuiltIn* position = find_built_in(shader.built_in_inputs, spv::BuiltIn::FragCoord);
+  const bool reads_z = position != nullptr && live[position->regs[2]];
+  const bool reads_w = position != nullptr && live[position->regs[3]];
+  const bool early = depth.active && !depth.late;
+  if (early || reads_z || live[depth_reg]) append_to(code, Opcode::frag_depth, depth_reg, 1);
+  if (early) code.emit_void(Opcode::depth_test, depth_reg, kNoReg, kNoReg, depth.flags, shader.end_label);
+  if (reads_z) code.emit_to(Opcode::mov, position->regs[2], depth_reg);
+  emit_built_ins(shader, live);
+  const auto uses = [&](Interpolation how) {
+    return std::any_of(varyings.begin(), varyings.end(),
+                       [&](const InterfaceComponent& each) { return each.interpolation == how; });
+  };
+  const bool perspective = reads_w || uses(Interpolation::perspective);
+  Reg linear = kNoReg, corrected = kNoReg;
+  if (perspective || uses(Interpolation::linear)) linear = code.emit_n(Opcode::frag_linear, 2);
+  if (perspective) corrected = code.emit_n(Opcode::frag_perspective, 3, linear, linear + 1);
+  if (reads_w) code.emit_to(Opcode::mov, position->regs[3], corrected + 2);
+  for (uint32_t slot = 0; slot < varyings.size();) {
+    const InterfaceComponent& first = varyings[slot];
+    uint32_t run = 1;
+    while (slot + run < varyings.size() && run < kMostResults && varyings[slot + run].reg == first.reg + run &&
+           varyings[slot + run].interpolation == first.interpolation)
+      ++run;
+    const bool flat = first.interpolation == Interpolation::flat;
+    Instruction& instruction = append_to(code, flat ? Opcode::interpolate_flat : Opcode::interpolate, first.reg, run);
+    instruction.imm = slot;
+    if (!flat) {
+      const Reg lambda = first.interpolation == Interpolation::linear ? linear : corrected;
+      instruction.a = lambda;
+      instruction.b = lambda + 1;
+    }
+    slot += run;
+  }
+}
+
+// What the fragment program does beside depth and counting.
+bool has_effects(const LoweredShader& shader) {
+  if (shader.kills || shader.stores) return true;
+  return std::any_of(shader.code.instructions.begin(), shader.code.instructions.end(),
+                     [](const Instruction& instruction) { return instruction.op == Opcode::store_color; });
+}
+
+}  // namespace
+
+Result<GraphicsCode> make_graphics_code(const ShaderStage& vertex, const ShaderStage* fragment,
+                                        const GraphicsState& state, const ResourceLayout& layout) {
+  GraphicsCode out;
+  LoweredShader shader;
+  Varyings varyings;
+  DepthPlan depth;
+  Reg depth_reg = kNoReg;
+  const auto build = [&](bool with_shader) -> Result<void> {
+    shader = LoweredShader{};
+    shader.code.stage = VK_SHADER_STAGE_FRAGMENT_BIT;
+    if (with_shader) {
+      Result<LoweredShader> lowered = lower_shader(*fragment, VK_SHADER_STAGE_FRAGMENT_BIT, layout);
+      if (!lowered) return lowered.error();
+      shader = std::move(*lowered);
+    } else {
+      shader.end_label = shader.code.new_label();
+    }
+    shader.code.color_formats.assign(state.color_formats.begin(), state.color_formats.end());
+    depth = plan_depth(shader, state);
+    depth_reg = shader.code.new_value();
+    return emit_fragment_epilogue(shader, state, depth, depth_reg);
+  };
+  if (Result<void> r = build(fragment != nullptr); !r) return r.error();
+  const bool replaces_depth = depth.late && find_built_in(shader.built_in_outputs, spv::BuiltIn::FragDepth) != nullptr;
+  out.fragment_reads_nothing = !has_effects(shader) && !replaces_depth;
+  if (out.fragment_reads_nothing && fragment != nullptr) {  // nobody sees what the shader computes
+    if (Result<void> r = build(false); !r) return r.error();
+  }
+  finish(shader);
+  const std::vector<bool> live = find_live_registers(shader.code);
+  varyings = link_varyings(shader, live);
+  if (varyings.size() > kMaxVaryingComponents)
+    return Error{VK_ERROR_UNKNOWN, "the fragment shader reads more than " + std::to_string(kMaxVaryingComponents) +
+                                       " components of inputs"};
+  const size_t first = shader.code.instructions.size();
+  emit_fragment_prologue(shader, depth, depth_reg, varyings, live);
+  move_to_front(shader.code, first);
+  Result<Code> vertex_code = make_vertex_code(vertex, state, layout, varyings);
+  if (!vertex_code) return vertex_code.error();
+  out.vertex = std::move(*vertex_code);
+  out.fragment = std::move(shader.code);
+  for (const InterfaceComponent& each : varyings) out.varyings.push_back(each.interpolation);
+  out.output_slots = out.vertex.output_slots;
+  return out;
+}
+
+Result<Code> make_compute_code(const ShaderStage& stage, const ResourceLayout& layout) {
+  Result<LoweredShader> shader = lower_shader(stage, VK_SHADER_STAGE_COMPUTE_BIT, layout);
+  if (!shader) return shader.error();
+  finish(*shader);
+  const size_t first = shader->code.instructions.size();
+  emit_built_ins(*shader, find_live_registers(shader->code));
+  move_to_front(shader->code, first);
+  return std::move(shader->code);
+}
+
+Result<GraphicsPrograms> build_graphics(const ShaderStage& vertex, const ShaderStage* fragment,
+                                        const GraphicsState& state, const ResourceLayout& layout) {
+  Result<GraphicsCode> code = make_graphics_code(vertex, fragment, state, layout);
+  if (!code) return code.error();
+  GraphicsPrograms out;
+  Result<ProgramPtr> program = assemble(std::move(code->vertex));
+  if (!program) return program.error();
+  out.vertex = std::move(*program);
+  program = assemble(std::move(code->fragment));
+  if (!program) return program.error();
+  out.fragment = std::move(*program);
+  out.varyings = std::move(code->varyings);
+  out.output_slots = code->output_slots;
+  out.fragment_reads_nothing = code->fragment_reads_nothing;
+  return out;
+}
+
+Result<ComputeProgram> build_compute(const ShaderStage& stage, const ResourceLayout& layout) {
+  Result<Code> code = make_compute_code(stage, layout);
+  if (!code) return code.error();
+  ComputeProgram out;
+  std::copy(std::begin(code->workgroup_size), std::end(code->workgroup_size), out.workgroup_size);
+  Result<ProgramPtr> program = assemble(std::move(*code));
+  if (!program) return program.error();
+  out.program = std::move(*program);
+  return out;
+}
+
+}  // namespace lapilli

@@ -1,0 +1,25 @@
+// The programs of a pipeline as Code: what stage.h's functions hand to assemble(), and what tests look at.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "shader/stage.h"
+
+namespace lapilli {
+
+struct GraphicsCode {
+  Code vertex, fragment;
+  std::vector<Interpolation> varyings;
+  uint32_t output_slots = 0;
+  bool fragment_reads_nothing = false;
+};
+
+Result<GraphicsCode> make_graphics_code(const ShaderStage& vertex, const ShaderStage* fragment,
+                                        const GraphicsState& state, const ResourceLayout& layout);
+Result<Code> make_compute_code(const ShaderStage& stage, const ResourceLayout& layout);
+
+// Registers whose values matter: to what is stored, to control flow, and to one another.
+std::vector<bool> find_live_registers(const Code& code);
+
+}  // namespace lapilli
