@@ -24,6 +24,8 @@ class Assembler {
 
   Result<void> run() {
     if (Result<void> done = resolve_formats(); !done) return done;
+    optimize(code_, program_.target);
+    assert(verify(code_).empty());
     FormChoice choice = choose_forms(code_);
     allocation_ = allocate_registers(code_, choice);
     if (allocation_.count > kMaxRegisters) return error("the shader needs too many registers", allocation_.count);

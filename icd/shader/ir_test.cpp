@@ -125,6 +125,15 @@ const Defect kDefects[] = {
     {"no masked copy", [](Counting& c) { c.code.instructions[9].a = c.next; }, "masked copy"},
     {"two definitions", [](Counting& c) { c.code.instructions[5].dst = c.next; }, "second time"},
     {"constant written", [](Counting& c) { c.code.instructions[0].dst = c.code.constant(0); }, "writes a constant"},
+    {"several results in variables",
+     [](Counting& c) {
+       Instruction& i = c.code.instructions[3];
+       i = {};
+       i.op = Opcode::load_push;
+       i.results = 2;
+       i.dst = c.code.new_variable(2);
+     },
+     "several variables"},
     {"set of a value", [](Counting& c) { c.code.instructions[4].dst = c.code.new_value(); }, "no variable"},
     {"too many results", [](Counting& c) { c.code.instructions[3].results = 2; }, "number of results"},
     {"no results", [](Counting& c) { c.code.instructions[3].results = 0; }, "number of results"},

@@ -224,6 +224,7 @@ class Verifier {
     for (Reg reg = instruction.dst; reg < instruction.dst + instruction.results; ++reg) {
       const RegKind kind = code_.registers[reg].kind;
       if (kind == RegKind::constant) return fail_here("writes a constant");
+      if (kind == RegKind::variable && instruction.results > 1) return fail_here("writes several variables");
       if (kind == RegKind::value) {
         if (instruction.op == Opcode::set) return fail_here("sets a register that is no variable");
         if (definition_[reg] != kUndefined) return fail_here("writes a value a second time");

@@ -43,7 +43,8 @@ void one_triangle_barycentrics(const FragmentBatch& batch, Barycentrics& out) {
   }
 }
 
-void barycentrics(const FragmentBatch& batch, Barycentrics& out) {
+// Not inlined: g++ 12 drops the stores of the loop when it inlines this into the ops (RenderPass tests show it).
+HWY_NOINLINE void barycentrics(const FragmentBatch& batch, Barycentrics& out) {
   if (batch.one_triangle) return one_triangle_barycentrics(batch, out);
   for (int edge = 1; edge < 3; ++edge) {
     double* lambda = out.lambda[edge - 1];

@@ -1,0 +1,93 @@
+// Removal of what nobody needs, from effects back to what they read.
+#include "shader/passes/passes.h"
+
+namespace lapilli {
+namespace {
+
+class Marker {
+ public:
+  explicit Marker(Code& code) : code_(code), live_(code.instructions.size(), 0), needed_(code.registers.size(), 0) {}
+
+  void run() {
+    list_writers();
+    for (uint32_t i = 0; i < code_.instructions.size(); ++i) {
+      // A store to an array counts where the array is read.
+      const Opcode op = code_.instructions[i].op;
+      if ((op_info(op).effects & (kWritesMemory | kControl)) != 0 && op != Opcode::store_array) mark(i);
+    }
+    while (!work_.empty()) {
+      const Instruction& instruction = code_.instructions[work_.back()];
+      work_.pop_back();
+      for_each_operand(code_, instruction, [this](Reg reg) { need(reg); });
+      if (instruction.op != Opcode::load_array) continue;
+      const RegArray& array = code_.arrays[instruction.imm];
+      for (Reg reg = array.first; reg < array.first + array.count; ++reg) need(reg);
+    }
+    for (uint32_t i = 0; i < code_.instructions.size(); ++i) {
+      if (live_[i] != 0) trim(code_.instructions[i]);
+    }
+    keep_marked(code_, live_);
+  }
+
+ private:
+  // writers_[first_writer_[reg] .. first_writer_[reg + 1]) are the instructions that write reg. Stores to an array
+  // stand with its first element.
+  void list_writers() {
+    first_writer_.assign(code_.registers.size() + 2, 0);
+    for_each_write([this](Reg reg, uint32_t) { ++first_writer_[reg + 2]; });
+    for (size_t reg = 2; reg < first_writer_.size(); ++reg) first_writer_[reg] += first_writer_[reg - 1];
+    writers_.resize(first_writer_.back());
+    for_each_write([this](Reg reg, uint32_t i) { writers_[first_writer_[reg + 1]++] = i; });
+  }
+
+  template <class Visit>
+  void for_each_write(Visit&& visit) {
+    for (uint32_t i = 0; i < code_.instructions.size(); ++i) {
+      const Instruction& instruction = code_.instructions[i];
+      if (instruction.op == Opcode::store_array) visit(code_.arrays[instruction.imm].first, i);
+      for (uint32_t k = 0; k < instruction.results; ++k) visit(instruction.dst + k, i);
+    }
+  }
+
+  void mark(uint32_t i) {
+    if (live_[i] != 0) return;
+    live_[i] = 1;
+    work_.push_back(i);
+  }
+
+  void need(Reg reg) {
+    if (needed_[reg] != 0) return;
+    needed_[reg] = 1;
+    for (uint32_t k = first_writer_[reg]; k < first_writer_[reg + 1]; ++k) mark(writers_[k]);
+    const uint32_t array = code_.registers[reg].array;
+    if (array != kNoReg) need(code_.arrays[array].first);
+  }
+
+  // Drops results at both ends where the instruction says how many there are.
+  void trim(Instruction& instruction) {
+    if (op_info(instruction.op).results >= 0) return;
+    while (instruction.results > 1 && needed_[instruction.dst + instruction.results - 1u] == 0) --instruction.results;
+    const ImmRoles roles = imm_roles(instruction.op);
+    if (roles.imm != ImmRole::varying && roles.imm2 != ImmRole::bytes) return;
+    for (; instruction.results > 1 && needed_[instruction.dst] == 0; ++instruction.dst, --instruction.results) {
+      if (roles.imm == ImmRole::varying) {
+        ++instruction.imm;
+      } else {
+        instruction.imm2 += 4;
+      }
+    }
+  }
+
+  Code& code_;
+  std::vector<uint8_t> live_;
+  std::vector<uint8_t> needed_;
+  std::vector<uint32_t> first_writer_;
+  std::vector<uint32_t> writers_;
+  std::vector<uint32_t> work_;
+};
+
+}  // namespace
+
+void remove_dead_code(Code& code) { Marker(code).run(); }
+
+}  // namespace lapilli

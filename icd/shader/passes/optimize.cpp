@@ -1,0 +1,43 @@
+// The order of the passes, and what they share.
+#include "shader/passes/passes.h"
+
+namespace lapilli {
+
+void optimize(Code& code, SimdTarget target) {
+  simplify(code, target);
+  remove_dead_code(code);
+  schedule(code);
+}
+
+bool is_pure(const Instruction& instruction) {
+  constexpr uint32_t kImpure = kReadsMemory | kWritesMemory | kControl | kMasked | kBatchInput;
+  return instruction.results == 1 && (op_info(instruction.op).effects & kImpure) == 0;
+}
+
+std::vector<uint8_t> block_starts(const Code& code) {
+  std::vector<uint8_t> starts(code.instructions.size() + 1, 0);
+  starts[0] = 1;
+  for (uint32_t position : code.labels) {
+    if (position != kNoLabelPosition) starts[position] = 1;
+  }
+  for (size_t i = 0; i < code.instructions.size(); ++i) {
+    if ((op_info(code.instructions[i].op).effects & kControl) != 0) starts[i + 1] = 1;
+  }
+  return starts;
+}
+
+void keep_marked(Code& code, const std::vector<uint8_t>& marks) {
+  std::vector<uint32_t> moved(code.instructions.size() + 1);
+  uint32_t kept = 0;
+  for (uint32_t i = 0; i < code.instructions.size(); ++i) {
+    moved[i] = kept;
+    if (marks[i] != 0) code.instructions[kept++] = code.instructions[i];
+  }
+  moved[code.instructions.size()] = kept;
+  code.instructions.resize(kept);
+  for (uint32_t& position : code.labels) {
+    if (position != kNoLabelPosition) position = moved[position];
+  }
+}
+
+}  // namespace lapilli
