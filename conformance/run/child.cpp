@@ -87,9 +87,10 @@ Child::Child(const std::string& program, const std::string& manifest, const Chil
     setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);  // a first frame compiles
     const std::string width = std::to_string(options.scene_options.width);
     const std::string height = std::to_string(options.scene_options.height);
-    const std::string angle = std::to_string(options.scene_options.angle);
+    std::array<char, 32> angle = {};
+    std::snprintf(angle.data(), angle.size(), "%.9g", static_cast<double>(options.scene_options.angle));
     execl(program.c_str(), program.c_str(), "--child", options.pixels_path.c_str(), "--scene", options.scene.c_str(),
-          "--width", width.c_str(), "--height", height.c_str(), "--angle", angle.c_str(), static_cast<char*>(nullptr));
+          "--width", width.c_str(), "--height", height.c_str(), "--angle", angle.data(), static_cast<char*>(nullptr));
     _exit(127);
   }
   close(down[0]);
