@@ -13,7 +13,9 @@ namespace lapilli::conformance {
 namespace {
 
 constexpr VkBufferUsageFlags kBothWays = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-constexpr VkImageUsageFlags kImageBothWays = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+// SAMPLED, because samples::Image makes a view of everything.
+constexpr VkImageUsageFlags kImageBothWays =
+    VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
 
 std::vector<uint32_t> random_words(std::mt19937& random, size_t count) {
   std::vector<uint32_t> out(count);

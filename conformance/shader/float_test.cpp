@@ -268,12 +268,13 @@ TEST(FloatFunctions, WithinTheSpecificationsBoundsAndOurs) {
       const double want = f.value(x, y);
       // Vulkan leaves atan(0, 0) open.
       if (f.op == 12 && x == 0 && y == 0) continue;
+      if (!subject_is_lapilli() && (denormal(float(want)) || std::abs(want) < 1e-35)) continue;
       const double error = oracle::ulp_error(got[i], want);
       if (error > worst) {
         worst = error;
         worst_at = i;
       }
-      const bool in_spec = std::abs(double(got[i]) - want) <= f.spec(want, x, y);
+      const bool in_spec = error == 0 || std::abs(double(got[i]) - want) <= f.spec(want, x, y);
       if (in_spec && (!subject_is_lapilli() || error <= kOwnBound)) continue;
       if (++wrong <= 3) {
         ADD_FAILURE() << f.name << std::hexfloat << "(" << a[i] << ", " << b[i] << ") = " << got[i] << ", expected "

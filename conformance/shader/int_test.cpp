@@ -94,10 +94,11 @@ const Op kOps[] = {
     {4, "umod", [](U a, U b, U) -> Result { return b == 0 ? Result() : a % b; }},
     {5, "sdiv",
      [](U a, U b, U) -> Result { return b == 0 || (a == 0x80000000 && b == ~0u) ? Result() : U(S(a) / S(b)); }},
-    // GLSL's % of negative operands is undefined; glslang makes OpSMod of it: sign of the divisor.
+    // glslang makes OpSMod of GLSL's %. Vulkan leaves negative operands open; Lapilli takes SPIR-V's meaning.
     {6, "smod",
      [](U a, U b, U) -> Result {
        if (b == 0 || (a == 0x80000000 && b == ~0u)) return std::nullopt;
+       if (!subject_is_lapilli() && (S(a) < 0 || S(b) < 0)) return std::nullopt;
        const S r = S(a) % S(b);
        return U(r != 0 && (r < 0) != (S(b) < 0) ? r + S(b) : r);
      }},
