@@ -6,6 +6,7 @@
 #include <array>
 
 #include "shader/fixed_function.h"
+#include "shader/passes/passes.h"
 #include "shader/spirv/lower.h"
 #include "shader/stage_code.h"
 
@@ -14,9 +15,16 @@ namespace {
 
 constexpr uint32_t kMostResults = 16;
 
-void finish(LoweredShader& shader) {
-  shader.code.place_label(shader.end_label);
-  shader.code.append(Opcode::end);
+// Ends the program; tells which registers it reads once what has no effect is gone.
+std::vector<bool> finish(LoweredShader& shader) {
+  Code& code = shader.code;
+  code.place_label(shader.end_label);
+  code.append(Opcode::end);
+  remove_dead_code(code);
+  std::vector<bool> live(code.registers.size());
+  for (const Instruction& instruction : code.instructions)
+    for_each_operand(code, instruction, [&](Reg reg) { live[reg] = true; });
+  return live;
 }
 
 // Instructions from `first` on come before all others.
@@ -144,8 +152,7 @@ Result<Code> make_vertex_code(const ShaderStage& stage, const GraphicsState& sta
   Result<LoweredShader> shader = lower_shader(stage, VK_SHADER_STAGE_VERTEX_BIT, layout);
   if (!shader) return shader.error();
   emit_outputs(*shader, varyings);
-  finish(*shader);
-  const std::vector<bool> live = find_live_registers(shader->code);
+  const std::vector<bool> live = finish(*shader);
   const size_t first = shader->code.instructions.size();
   emit_built_ins(*shader, live);
   emit_fetches(*shader, state, live);
@@ -289,8 +296,7 @@ Result<GraphicsCode> make_graphics_code(const ShaderStage& vertex, const ShaderS
   if (out.fragment_reads_nothing && fragment != nullptr) {  // nobody sees what the shader computes
     if (Result<void> r = build(false); !r) return r.error();
   }
-  finish(shader);
-  const std::vector<bool> live = find_live_registers(shader.code);
+  const std::vector<bool> live = finish(shader);
   varyings = link_varyings(shader, live);
   if (varyings.size() > kMaxVaryingComponents)
     return Error{VK_ERROR_UNKNOWN, "the fragment shader reads more than " + std::to_string(kMaxVaryingComponents) +
@@ -310,9 +316,9 @@ Result<GraphicsCode> make_graphics_code(const ShaderStage& vertex, const ShaderS
 Result<Code> make_compute_code(const ShaderStage& stage, const ResourceLayout& layout) {
   Result<LoweredShader> shader = lower_shader(stage, VK_SHADER_STAGE_COMPUTE_BIT, layout);
   if (!shader) return shader.error();
-  finish(*shader);
+  const std::vector<bool> live = finish(*shader);
   const size_t first = shader->code.instructions.size();
-  emit_built_ins(*shader, find_live_registers(shader->code));
+  emit_built_ins(*shader, live);
   move_to_front(shader->code, first);
   return std::move(shader->code);
 }

@@ -1,7 +1,6 @@
 // The programs of a pipeline as Code: what stage.h's functions hand to assemble(), and what tests look at.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "shader/stage.h"
@@ -18,8 +17,5 @@ struct GraphicsCode {
 Result<GraphicsCode> make_graphics_code(const ShaderStage& vertex, const ShaderStage* fragment,
                                         const GraphicsState& state, const ResourceLayout& layout);
 Result<Code> make_compute_code(const ShaderStage& stage, const ResourceLayout& layout);
-
-// Registers whose values matter: to what is stored, to control flow, and to one another.
-std::vector<bool> find_live_registers(const Code& code);
 
 }  // namespace lapilli

@@ -158,10 +158,10 @@ void Lowering::lower_terminator(const SpirvInst& inst) {
       return go_to(function.block_of(inst[1]));
     case spv::Op::OpBranchConditional: {
       const Reg condition = scalar(inst[1]);
-      const uint32_t yes = function.block_of(inst[2]), no = function.block_of(inst[3]);
+      const uint32_t yes = destination(function.block_of(inst[2])), no = destination(function.block_of(inst[3]));
       if (type_of(inst[1]).kind != Kind::boolean) return fail("its condition is no boolean");
-      if (yes == no) return go_to(yes);
       if (const auto bits = constant_bits(condition)) return go_to(*bits != 0 ? yes : no);
+      if (yes == no) return go_to(yes);
       make_edge(yes, condition, false);
       make_edge(no, condition, true);
       const uint32_t yes_mask = mark_pending(frame_->blocks[yes]);
@@ -184,6 +184,27 @@ void Lowering::lower_terminator(const SpirvInst& inst) {
   }
 }
 
+// The block to which a jump to `target` leads, past blocks that only jump on.
+uint32_t Lowering::destination(uint32_t target) const {
+  const SpirvFunction& function = *frame_->function;
+  constexpr int kMostHops = 16;
+  for (int hop = 0; hop < kMostHops; ++hop) {
+    const SpirvBlock& block = function.blocks[target];
+    if (function.is_header(block) || block.successors.size() != 1 || first_op(block) != spv::Op::OpBranch) break;
+    const SpirvBlock& next = function.blocks[block.successors[0]];
+    if (first_op(next) == spv::Op::OpPhi) break;
+    target = block.successors[0];
+  }
+  return target;
+}
+
+// Opcode of a block's first instruction that is no OpLine.
+spv::Op Lowering::first_op(const SpirvBlock& block) const {
+  SpirvInst inst = m_.at(block.first);
+  while (inst.op == spv::Op::OpLine || inst.op == spv::Op::OpNoLine) inst = m_.at(inst.word + inst.count);
+  return inst.op;
+}
+
 // A jump to the block that is next anyway, and to which nothing else leads, leaves the lanes as they are.
 void Lowering::go_to(uint32_t target) {
   const SpirvFunction& function = *frame_->function;
@@ -195,6 +216,7 @@ void Lowering::go_to(uint32_t target) {
     frame_->fallthrough = target;
     return;
   }
+  target = destination(target);
   make_edge(target, kNoReg, false);
   code_.emit_void(Opcode::branch, kNoReg, kNoReg, kNoReg, mark_pending(frame_->blocks[target]));
 }
@@ -203,7 +225,7 @@ void Lowering::lower_switch(const SpirvInst& inst) {
   const SpirvFunction& function = *frame_->function;
   if (!type_of(inst[1]).is_integer()) return fail("its selector is no integer");
   const Reg selector = scalar(inst[1]);
-  const uint32_t fallback = function.block_of(inst[2]);
+  const uint32_t fallback = destination(function.block_of(inst[2]));
   if (const auto bits = constant_bits(selector)) {
     for (uint32_t i = 3; i + 1 < inst.count; i += 2) {
       if (inst[i] == *bits) return go_to(function.block_of(inst[i + 1]));
@@ -212,7 +234,7 @@ void Lowering::lower_switch(const SpirvInst& inst) {
   }
   std::vector<std::pair<uint32_t, uint32_t>> cases;  // target, literal
   for (uint32_t i = 3; i + 1 < inst.count; i += 2) {
-    const uint32_t target = function.block_of(inst[i + 1]);
+    const uint32_t target = destination(function.block_of(inst[i + 1]));
     if (target != fallback) cases.emplace_back(target, inst[i]);
   }
   if (cases.empty()) return go_to(fallback);

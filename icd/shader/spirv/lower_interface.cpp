@@ -155,6 +155,10 @@ void Lowering::declare_built_in(const SpirvInst& inst, uint32_t built_in, uint32
   entry.built_in = which;
   entry.word = inst.word;
   for (uint32_t i = 0; i < row->components; ++i) entry.regs.push_back(first + i);
+  if (which == spv::BuiltIn::PointSize) {  // what it is where the shader does not write it
+    code_.emit_to(Opcode::mov, first, constant_f(1.0f));
+    set_known(first, constant_f(1.0f));
+  }
   (output ? out_.built_in_outputs : out_.built_in_inputs).push_back(std::move(entry));
 }
 

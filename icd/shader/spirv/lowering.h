@@ -174,6 +174,8 @@ class Lowering {
   void lower_switch(const SpirvInst& inst);
   void lower_return(const SpirvInst& inst);
   void go_to(uint32_t target);  // unconditional
+  uint32_t destination(uint32_t target) const;
+  spv::Op first_op(const SpirvBlock& block) const;
   void make_edge(uint32_t target, Reg condition, bool negate);
   void copy_to_phis(uint32_t target, Reg condition, bool negate);
   uint32_t mark_pending(BlockState& state);  // its mask
