@@ -283,7 +283,7 @@ struct op_store_color {
 
 const HandlerEntry kEntries[] = {
     LAPILLI_FAT(frag_linear, false), LAPILLI_FAT(frag_perspective, false), LAPILLI_FAT(frag_depth, true),
-    LAPILLI_FAT(interpolate, false), LAPILLI_FAT(interpolate_flat, false), LAPILLI_FAT(depth_test, false),
+    LAPILLI_FAT(interpolate, true),  LAPILLI_FAT(interpolate_flat, true),  LAPILLI_FAT(depth_test, false),
     LAPILLI_CONTROL(count_samples),  LAPILLI_FAT(load_color, false),       LAPILLI_FAT(store_color, false),
 };
 

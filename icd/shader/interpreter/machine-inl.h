@@ -255,7 +255,7 @@ struct Loop {
       LAPILLI_FORM(name, signature, kAccumulatorIsC | kStore)
 #define LAPILLI_COLD(name, signature) \
   HandlerEntry { Opcode::name, kStore, reinterpret_cast<Handler>(&Fat<Loop<op_##name, signature>, true>::handler) }
-// Bodies of whole ops: `static HWY_NOINLINE const Op* run(const Op*, Frame*)`.
+// Bodies of whole ops: `static HWY_NOINLINE const Op* run(const Op*, Frame*)`. one_result: there may be exactly one.
 #define LAPILLI_FAT(name, one_result) \
   HandlerEntry { Opcode::name, kStore, reinterpret_cast<Handler>(&Fat<op_##name, one_result>::handler) }
 #define LAPILLI_CONTROL(name) \

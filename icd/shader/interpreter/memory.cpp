@@ -227,9 +227,9 @@ struct op_store_array {
 };
 
 const HandlerEntry kEntries[] = {
-    LAPILLI_FAT(load_buffer, false), LAPILLI_FAT(store_buffer, false),      LAPILLI_FAT(load_uniform, false),
-    LAPILLI_FAT(load_push, false),   LAPILLI_FAT(load_push_indexed, false), LAPILLI_FAT(buffer_size, true),
-    LAPILLI_FAT(load_array, true),   LAPILLI_FAT(store_array, false),
+    LAPILLI_FAT(load_buffer, true), LAPILLI_FAT(store_buffer, false),     LAPILLI_FAT(load_uniform, true),
+    LAPILLI_FAT(load_push, true),   LAPILLI_FAT(load_push_indexed, true), LAPILLI_FAT(buffer_size, true),
+    LAPILLI_FAT(load_array, true),  LAPILLI_FAT(store_array, false),
 };
 
 }  // namespace
