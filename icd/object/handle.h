@@ -18,7 +18,7 @@ namespace lapilli {
 // objects.
 struct Object {
   VK_LOADER_DATA loader;
-  HostMemory host;       // where the object itself and what it owns lie
+  HostMemory host;             // where the object itself and what it owns lie
   char* debug_name = nullptr;  // given by vkSetDebugUtilsObjectNameEXT
 
   explicit Object(const HostMemory& memory) : loader{ICD_LOADER_MAGIC}, host(memory) {}

@@ -51,7 +51,7 @@ void Blit::row(int32_t line) const {
   const SamplingFunctions& sampling = sampling_functions();
   const TexelFunctions& texels = texel_functions(*format);
   std::fill_n(v, kLanes, y.source(line));
-  for (int32_t first = x.first; first < x.end; first += kLanes) {
+  for (int32_t first = x.first; first < x.end; first += int32_t{kLanes}) {
     const auto count = std::min<uint32_t>(static_cast<uint32_t>(x.end - first), kLanes);
     for (uint32_t i = 0; i < kLanes; ++i) u[i] = x.source(first + static_cast<int32_t>(i));
     const uint64_t lanes = count == kLanes ? ~uint64_t{0} : (uint64_t{1} << count) - 1;

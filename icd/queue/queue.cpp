@@ -4,6 +4,8 @@
 #include <pthread.h>
 #include <signal.h>
 
+#include <system_error>
+
 #include "base/fp_environment.h"
 #include "base/log.h"
 #include "object/debug_utils.h"
@@ -17,8 +19,14 @@ std::thread start_thread_without_signals(Function function) {
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
-  std::thread thread(function);
+  std::thread thread;
+  try {
+    thread = std::thread(function);
+  } catch (const std::system_error&) {
+    // The system has no thread left to give: a lack of memory as far as the application can tell.
+  }
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  if (!thread.joinable()) throw std::bad_alloc();
   return thread;
 }
 
