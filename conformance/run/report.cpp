@@ -240,7 +240,7 @@ json page(const std::vector<SceneReport>& reports, const Plan& plan) {
         {{{"type", "table"}, {"columns", lines[0]}, {"rows", std::vector(lines.begin() + 1, lines.end())}},
          plot(reports, "Largest colour error against time", "largest error against float64 [1/255]", true,
               [](const SceneReport&, const Row& row) { return row.error.largest; }),
-         plot(reports, "Largest depth error against time", "largest depth error", true,
+         plot(reports, "Largest depth error against time", "largest depth error (none is drawn at 1e-9)", true,
               [](const SceneReport& report, const Row& row) {
                 return report.writes_depth ? std::max(row.error.depth, 1e-9) : -1.0;
               })}}});
