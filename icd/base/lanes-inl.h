@@ -1,5 +1,5 @@
 // Lanes: one native vector of 32-bit values, and everything that the driver does to lanes. The same bits on every
-// target. Per-target header. A file that uses it looks like lanes_test.cpp, from its first include to its last line.
+// target. Per-target header. A file that uses it looks like lanes_runs.cpp.
 //
 //   F, I, U   vectors of kVectorLanes floats, signed and unsigned integers (4, 8 or 16 lanes)
 //   M         one condition per lane;  D  as many doubles as F has floats

@@ -332,7 +332,8 @@ TEST(Lanes, FmaRoundsOnce) {
       case 2: {
         // Around 24 to 26 places below the product or above it: ties and sticky bits.
         const int shift = static_cast<int>(random() % 80) - 40;
-        c[i] = std::ldexp((random() % 2 != 0 ? 1.0f : -1.5f), std::ilogb(a[i] * b[i] + 0x1p-140f) + shift);
+        const float product = std::isnormal(a[i] * b[i]) ? a[i] * b[i] : 0x1p-120f;
+        c[i] = std::ldexp(random() % 2 != 0 ? 1.0f : -1.5f, std::ilogb(product) + shift);
         break;
       }
       default: {
