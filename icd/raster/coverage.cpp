@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "base/sign_bits.h"
+#include "base/block_signs.h"
 
 namespace lapilli {
 namespace {
@@ -53,17 +53,6 @@ uint64_t inside_rect(const PixelRect& rect, int32_t x, int32_t y) {
 struct TileEdge {
   int32_t a, b, c;
   int32_t highest, lowest;  // in a block, relative to the value at its origin
-  bool has_offsets = false;
-  alignas(16) int32_t offset[64];  // of the block's pixels from its origin
-
-  TileEdge() = default;
-  void add_pixels(int32_t at_origin, int32_t (&signs)[64]) {
-    if (!has_offsets) {
-      for (size_t lane = 0; lane < 64; ++lane) offset[lane] = a * kLanePosition.x[lane] + b * kLanePosition.y[lane];
-      has_offsets = true;
-    }
-    for (size_t lane = 0; lane < 64; ++lane) signs[lane] |= at_origin + offset[lane];
-  }
 };
 
 // False: the tile is outside. Edges that the tile is inside of are left out.
@@ -82,7 +71,6 @@ bool edges_in_tile(const CoverageEdges& edges, int32_t tile_x, int32_t tile_y, T
     edge.c = static_cast<int32_t>(c);
     edge.highest = kBlockSpan * (std::max(edge.a, 0) + std::max(edge.b, 0));
     edge.lowest = kBlockSpan * (std::min(edge.a, 0) + std::min(edge.b, 0));
-    edge.has_offsets = false;
   }
   return true;
 }
@@ -106,22 +94,14 @@ uint32_t cover_tile(const BinTriangle& triangle, int32_t tile_x, int32_t tile_y,
   for (int32_t y = bounds.y0 & -kBlock; y < bounds.y1; y += kBlock) {
     for (int32_t x = bounds.x0 & -kBlock; x < bounds.x1; x += kBlock) {
       uint64_t pixels = inside_rect(bounds, x, y);
-      alignas(16) int32_t signs[64];
-      bool partial = false;
-      bool outside = false;
       for (uint32_t i = 0; i < edge_count; ++i) {
         const int32_t at_origin = edges[i].c + edges[i].a * x + edges[i].b * y;
         if (at_origin + edges[i].highest < 0) {
-          outside = true;
+          pixels = 0;
           break;
         }
-        if (at_origin + edges[i].lowest >= 0) continue;
-        if (!partial) std::fill(std::begin(signs), std::end(signs), 0);
-        partial = true;
-        edges[i].add_pixels(at_origin, signs);
+        if (at_origin + edges[i].lowest < 0) pixels &= ~negative_in_block(at_origin, edges[i].a, edges[i].b);
       }
-      if (outside) continue;
-      if (partial) pixels &= ~sign_bits(signs);
       if (pixels != 0) blocks[count++] = {static_cast<uint8_t>(x / kBlock), static_cast<uint8_t>(y / kBlock), pixels};
     }
   }
