@@ -10,9 +10,8 @@
 //   fma(a, b, c)              a * b + c rounded once, on every target, overflow and denormals included
 //   eq lt le ne gt ge         ordered comparisons (false for NaN, but ne is true); unordered_… are true for NaN
 //   select(m, yes, no)        any(m), all(m)
-//   min(x, y)                 y < x ? y : x, max(x, y)  x < y ? y : x (SPIR-V FMin, FMax); nmin, nmax prefer the
-//   operand
-//                             that is no NaN; min and max on I and U as expected
+//   min(x, y)                 y < x ? y : x, max(x, y)  x < y ? y : x (SPIR-V FMin, FMax); nmin, nmax prefer what
+//                             is no NaN; min and max on I and U as expected
 //   mul_high                  the upper 32 bits of a 64-bit product
 //   shift_left, shift_right   by a vector count modulo 32, or shift_left<n>(v); arithmetic for I, logical for U
 //   divide, remainder, modulo integers, defined for every operand: lanes_integer-inl.h

@@ -30,6 +30,8 @@ using BinaryBits = void(const std::uint32_t* x, const std::uint32_t* y, std::uin
   X(absolute_int, abs(as_i(x)))                                   \
   X(canonical, canonical(as_f(x)))                                \
   X(negate_float, negate(as_f(x)))                                \
+  X(swap_columns, swap_columns(x))                                \
+  X(swap_rows, swap_rows(x))                                      \
   X(is_nan, mask_to_u(is_nan(as_f(x))))                           \
   X(is_inf, mask_to_u(is_inf(as_f(x))))                           \
   X(is_finite, mask_to_u(is_finite(as_f(x))))

@@ -289,6 +289,18 @@ TEST(Lanes, MasksAndWordsAgree) {
   }
 }
 
+// Lane = quad * 4 + (y & 1) * 2 + (x & 1).
+TEST(Lanes, QuadsSwapTheirColumnsAndRows) {
+  std::vector<Word> lanes(64), result(64);
+  for (Word i = 0; i < 64; ++i) lanes[i] = i;
+  for (const SimdTarget target : supported_simd_targets()) {
+    lane_runs(target).swap_columns(lanes.data(), result.data(), 64);
+    for (Word i = 0; i < 64; ++i) ASSERT_EQ(result[i], i ^ 1);
+    lane_runs(target).swap_rows(lanes.data(), result.data(), 64);
+    for (Word i = 0; i < 64; ++i) ASSERT_EQ(result[i], i ^ 2);
+  }
+}
+
 TEST(Lanes, GatherTouchesOnlyItsLanes) {
   std::vector<unsigned char> memory(4096 + 4);
   for (std::size_t i = 0; i < memory.size(); ++i) memory[i] = static_cast<unsigned char>(i * 7 + i / 256);
