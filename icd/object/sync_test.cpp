@@ -48,8 +48,9 @@ TEST_F(Sync, DeadlinesDoNotOverflow) {
   EXPECT_EQ(deadline_after(UINT64_MAX), Clock::time_point::max());
   EXPECT_EQ(deadline_after(uint64_t{1} << 63), Clock::time_point::max());
   const auto before = Clock::now();
-  EXPECT_GE(deadline_after(1000), before + std::chrono::nanoseconds(1000));
-  EXPECT_LE(deadline_after(1000), Clock::now() + std::chrono::nanoseconds(1000));
+  const auto deadline = deadline_after(1000);
+  EXPECT_GE(deadline, before + std::chrono::nanoseconds(1000));
+  EXPECT_LE(deadline, Clock::now() + std::chrono::nanoseconds(1000));
 }
 
 TEST_F(Sync, QueryResultsInAllTheirForms) {
