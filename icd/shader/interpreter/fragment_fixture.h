@@ -1,0 +1,93 @@
+// A fragment batch with triangles, depth and colour planes, for tests and benchmarks of single ops.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+#include "image/format.h"
+#include "image/sampling.h"
+#include "image/texel.h"
+#include "shader/interpreter/test_frame.h"
+
+namespace lapilli {
+
+using Lanes = std::array<uint32_t, kBatchLanes>;
+inline float f(uint32_t bits) { return std::bit_cast<float>(bits); }
+inline uint32_t u(float value) { return std::bit_cast<uint32_t>(value); }
+
+// Four triangles in turn, or one; quads at random even places.
+struct FragmentTest {
+  TestFrame test;
+  FragmentBatch batch = {};
+  TriangleSetup triangles[4] = {};
+  float varyings[4][9] = {};
+  alignas(64) float depth[4096] = {};
+  alignas(64) uint32_t color[4096] = {};
+  const TexelFunctions* colors[1] = {};
+  uint64_t counter = 0;
+
+  FragmentTest(SimdTarget target, bool one_triangle) : test(target) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> reals(-2, 2);
+    for (TriangleSetup& t : triangles) {
+      const size_t index = static_cast<size_t>(&t - triangles);
+      for (int e = 0; e < 3; ++e) {
+        t.edge_a[e] = static_cast<double>(static_cast<int64_t>(random() % 2000001) - 1000000) * 256;
+        t.edge_b[e] = static_cast<double>(static_cast<int64_t>(random() % 2000001) - 1000000) * 256;
+        t.edge_c[e] = static_cast<double>(static_cast<int64_t>(random())) * 1024 - 1e12;
+        t.z[e] = static_cast<double>(reals(random));
+        t.inverse_w[e] = std::fabs(reals(random)) + 0.125f;
+      }
+      t.inverse_area2 = 1.0 / (t.edge_c[0] + t.edge_c[1] + t.edge_c[2] + 0.5);
+      t.min_depth = 0.125f;
+      t.max_depth = 0.875f;
+      t.front_facing = index % 2 == 0 ? 0xFFFFFFFFu : 0;
+      for (float& v : varyings[index]) v = reals(random);
+      t.varyings = varyings[index];
+    }
+    for (uint32_t q = 0; q < kBatchQuads; ++q) {
+      batch.triangle[q] = &triangles[one_triangle ? 0 : q % 4];
+      batch.x[q] = static_cast<uint16_t>(random() % 4096 * 2);
+      batch.y[q] = static_cast<uint16_t>(random() % 4096 * 2);
+      batch.quad_in_tile[q] = static_cast<uint16_t>(q * 61 % 1024);
+    }
+    batch.one_triangle = one_triangle;
+    batch.planes.depth = reinterpret_cast<std::byte*>(depth);
+    batch.planes.color[0] = reinterpret_cast<std::byte*>(color);
+    batch.samples_passed = &counter;
+    for (int i = 0; i < 4; ++i) batch.blend_constants[i] = 0.25f * static_cast<float>(i);
+    Frame& frame = test.frame();
+    frame.fragments = &batch;
+    frame.depth = &texel_functions(*find_format(VK_FORMAT_D32_SFLOAT), target);
+    colors[0] = &texel_functions(*find_format(VK_FORMAT_R8G8B8A8_UNORM), target);
+    frame.colors = colors;
+    frame.sampling = &sampling_functions(target);
+  }
+
+  const TriangleSetup& triangle(uint32_t lane) const { return *batch.triangle[lane / 4]; }
+  uint32_t x(uint32_t lane) const { return batch.x[lane / 4] + (lane & 1); }
+  uint32_t y(uint32_t lane) const { return batch.y[lane / 4] + (lane >> 1 & 1); }
+  // λ as the equation says; edges in integers.
+  double lambda(uint32_t lane, int edge) const {
+    const TriangleSetup& t = triangle(lane);
+    const int64_t e = static_cast<int64_t>(t.edge_a[edge]) * x(lane) + static_cast<int64_t>(t.edge_b[edge]) * y(lane) +
+                      static_cast<int64_t>(t.edge_c[edge]);
+    return static_cast<double>(e) * t.inverse_area2;
+  }
+  size_t texel(uint32_t lane) const { return batch.quad_in_tile[lane / 4] * 4u + (lane & 3); }
+  Lanes run(Opcode op, Op operands, uint32_t result = 4) {
+    test.add(op, kStore, operands);
+    test.run();
+    return result_of(result);
+  }
+  Lanes result_of(uint32_t reg) {
+    Lanes lanes;
+    test.read(reg, lanes);
+    return lanes;
+  }
+};
+
+}  // namespace lapilli

@@ -1,0 +1,408 @@
+// Tests of single ops: vertex fetch, built-ins, interpolation, depth test, colours, samples.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <random>
+
+#include "shader/interpreter/fragment_fixture.h"
+
+namespace lapilli {
+namespace {
+
+template <class Check>
+void for_all(Check&& check) {
+  for (SimdTarget target : supported_simd_targets()) {
+    for (bool one_triangle : {false, true}) check(target, one_triangle);
+  }
+}
+
+Op operands(uint16_t dst, uint16_t a = 0, uint16_t b = 0, uint16_t c = 0, uint32_t imm = 0, uint32_t imm2 = 0) {
+  return Op{nullptr, dst, a, b, c, imm, imm2};
+}
+
+TEST(Op, frag_linear) {
+  for_all([](SimdTarget target, bool one) {
+    FragmentTest t(target, one);
+    const Lanes l1 = t.run(Opcode::frag_linear, operands(4));
+    const Lanes l2 = t.result_of(5);
+    for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
+      EXPECT_EQ(l1[lane], u(static_cast<float>(t.lambda(lane, 1))));
+      EXPECT_EQ(l2[lane], u(static_cast<float>(t.lambda(lane, 2))));
+    }
+  });
+}
+
+TEST(Op, frag_depth) {
+  for_all([](SimdTarget target, bool one) {
+    FragmentTest t(target, one);
+    const Lanes got = t.run(Opcode::frag_depth, operands(4));
+    for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
+      const double* z = t.triangle(lane).z;
+      const float depth = static_cast<float>(z[0] + t.lambda(lane, 1) * z[1] + t.lambda(lane, 2) * z[2]);
+      EXPECT_EQ(f(got[lane]), std::min(std::max(depth, 0.125f), 0.875f));
+    }
+  });
+}
+
+Lanes fractions(uint32_t seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> reals(0, 0.5f);
+  Lanes lanes;
+  for (uint32_t& lane : lanes) lane = u(reals(random));
+  return lanes;
+}
+
+TEST(Op, frag_perspective) {
+  for_all([](SimdTarget target, bool one) {
+    FragmentTest t(target, one);
+    const Lanes a = fractions(1), b = fractions(2);
+    t.test.write(0, a);
+    t.test.write(1, b);
+    const Lanes l1 = t.run(Opcode::frag_perspective, operands(4, 0, 1));
+    const Lanes l2 = t.result_of(5), inverse_w = t.result_of(6);
+    for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
+      const float* w = t.triangle(lane).inverse_w;
+      const float t0 = ((1.0f - f(a[lane])) - f(b[lane])) * w[0];
+      const float t1 = f(a[lane]) * w[1];
+      const float t2 = f(b[lane]) * w[2];
+      const float sum = (t0 + t1) + t2;
+      EXPECT_EQ(f(inverse_w[lane]), sum);
+      EXPECT_EQ(f(l1[lane]), t1 / sum);
+      EXPECT_EQ(f(l2[lane]), t2 / sum);
+    }
+  });
+}
+
+TEST(Op, interpolate) {
+  for_all([](SimdTarget target, bool one) {
+    FragmentTest t(target, one);
+    const Lanes a = fractions(1), b = fractions(2);
+    t.test.write(0, a);
+    t.test.write(1, b);
+    t.run(Opcode::interpolate, operands(4, 0, 1, 2, 1));
+    for (uint32_t k = 0; k < 2; ++k) {
+      const Lanes got = t.result_of(4 + k);
+      for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
+        const float* v = t.triangle(lane).varyings + 3 * (1 + k);
+        EXPECT_EQ(f(got[lane]), std::fma(f(b[lane]), v[2], std::fma(f(a[lane]), v[1], v[0])));
+      }
+    }
+  });
+}
+
+TEST(Op, interpolate_flat) {
+  for_all([](SimdTarget target, bool one) {
+    FragmentTest t(target, one);
+    for (auto& v : t.varyings) v[3] = f(0x7F812345);  // any bits: a signalling NaN stays one
+    t.run(Opcode::interpolate_flat, operands(4, 0, 0, 2, 1));
+    const Lanes first = t.result_of(4), second = t.result_of(5);
+    for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
+      EXPECT_EQ(first[lane], 0x7F812345u);
+      EXPECT_EQ(f(second[lane]), t.triangle(lane).varyings[6]);
+    }
+  });
+}
+
+bool passes(uint32_t compare, float a, float b) {
+  const bool results[] = {false, a<b, a == b, a <= b, a> b, a != b, a >= b, true};
+  return results[compare];
+}
+
+TEST(Op, depth_test) {
+  constexpr uint64_t kCovered = 0xFFF0700F1234FFFF;
+  for (SimdTarget target : supported_simd_targets()) {
+    for (uint32_t flags = 0; flags < 16; ++flags) {
+      FragmentTest t(target, true);
+      std::mt19937 random(flags);
+      for (float& depth : t.depth) depth = static_cast<float>(random() % 4) * 0.25f;
+      std::array<float, 4096> expected;
+      std::copy(std::begin(t.depth), std::end(t.depth), expected.begin());
+      Lanes z;
+      for (uint32_t& lane : z) lane = random() % 16 == 0 ? 0x7FC00000 : u(static_cast<float>(random() % 4) * 0.25f);
+      t.test.write(0, z);
+      t.test.frame().write = kCovered;
+      uint64_t write = 0, exec = 0;
+      for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
+        if ((kCovered >> lane & 1) == 0 || !passes(flags & 7, f(z[lane]), t.depth[t.texel(lane)])) continue;
+        write |= uint64_t{1} << lane;
+        exec |= uint64_t{15} << (lane & ~3u);
+        // A NaN passes where the test is ALWAYS or NOT_EQUAL.
+        if ((flags & 8) != 0) expected[t.texel(lane)] = f(z[lane]);
+      }
+      t.test.add(Opcode::depth_test, kStore, operands(0, 0, 0, 0, flags, 1));
+      t.test.run();
+      EXPECT_EQ(t.test.frame().write, write) << flags;
+      EXPECT_EQ(t.test.frame().exec, exec) << flags;
+      for (size_t i = 0; i < 4096; ++i) EXPECT_EQ(u(t.depth[i]), u(expected[i])) << flags << ' ' << i;
+    }
+    // Nothing left: jumps.
+    FragmentTest t(target, true);
+    t.test.write(4, fractions(1));
+    t.test.write(5, fractions(2));
+    t.test.add(Opcode::depth_test, kStore, operands(0, 0, 0, 0, VK_COMPARE_OP_NEVER, 2));
+    t.test.add(Opcode::mov, kStore, 4, 5);
+    t.test.run();
+    EXPECT_EQ(t.result_of(4), fractions(1));
+  }
+}
+
+TEST(Op, count_samples) {
+  for_all([](SimdTarget target, bool one) {
+    FragmentTest t(target, one);
+    t.counter = 1000;
+    t.test.frame().write = 0xF0F00000000000FF;
+    t.test.add(Opcode::count_samples, kStore, Op{});
+    t.test.run();
+    EXPECT_EQ(t.counter, 1016u);
+    t.batch.samples_passed = nullptr;
+    t.test.add(Opcode::count_samples, kStore, Op{});
+    t.test.run();
+  });
+}
+
+TEST(Op, load_color) {
+  for (SimdTarget target : supported_simd_targets()) {
+    FragmentTest t(target, true);
+    for (uint32_t i = 0; i < 4096; ++i) t.color[i] = i * 0x01030507;
+    t.run(Opcode::load_color, operands(4));
+    for (uint32_t c = 0; c < 4; ++c) {
+      const Lanes got = t.result_of(4 + c);
+      for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
+        EXPECT_EQ(f(got[lane]), static_cast<float>(t.color[t.texel(lane)] >> (8 * c) & 255) / 255.0f);
+      }
+    }
+  }
+}
+
+TEST(Op, store_color) {
+  constexpr uint64_t kWrite = 0xFF0F1234567890AB;
+  for (SimdTarget target : supported_simd_targets()) {
+    FragmentTest t(target, true);
+    std::fill(std::begin(t.color), std::end(t.color), 0x11223344u);
+    const uint16_t list[] = {kNoOperand, 0, kNoOperand, 1};
+    t.test.frame().lists = list;
+    t.test.frame().write = kWrite;
+    Lanes green, alpha;
+    for (uint32_t i = 0; i < kBatchLanes; ++i) green[i] = u(static_cast<float>(i) / 255.0f);
+    alpha.fill(u(1.0f));
+    t.test.write(0, green);
+    t.test.write(1, alpha);
+    t.test.add(Opcode::store_color, kStore, operands(0, 0, 0, 0, 0, 2 | 8));
+    t.test.run();
+    uint32_t changed = 0;
+    for (uint32_t i = 0; i < 4096; ++i) changed += t.color[i] != 0x11223344u ? 1 : 0;
+    EXPECT_EQ(changed, static_cast<uint32_t>(std::popcount(kWrite)));
+    for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
+      const bool written = (kWrite >> lane & 1) != 0;
+      EXPECT_EQ(t.color[t.texel(lane)], written ? 0xFF220044u | lane << 8 : 0x11223344u);
+    }
+  }
+}
+
+TEST(Op, builtin) {
+  for_all([](SimdTarget target, bool one) {
+    FragmentTest t(target, one);
+    VertexBatch vertices = {};
+    for (uint32_t i = 0; i < kBatchLanes; ++i) vertices.vertex_index[i] = 3 * i, vertices.instance_index[i] = 5 * i;
+    ComputeBatch compute = {{2, 3, 4}, {5, 6, 7}, 64};
+    Frame& frame = t.test.frame();
+    frame.vertices = &vertices;
+    frame.invocations = &compute;
+    frame.workgroup_size[0] = 3;
+    frame.workgroup_size[1] = 5;
+    frame.workgroup_size[2] = 9;
+    frame.lanes = 0xFFFFFFFF0000FF01;
+    for (uint32_t which = 0; which < static_cast<uint32_t>(BuiltIn::kCount); ++which) {
+      const Lanes got = t.run(Opcode::builtin, operands(4, 0, 0, 0, which));
+      for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
+        const uint32_t index = 64 + lane;
+        const uint32_t local[] = {index % 3, index / 3 % 5, index / 15};
+        uint32_t expected = 0;
+        const auto axis = [&](BuiltIn first) { return which - static_cast<uint32_t>(first); };
+        switch (static_cast<BuiltIn>(which)) {
+          case BuiltIn::vertex_index:
+            expected = 3 * lane;
+            break;
+          case BuiltIn::instance_index:
+            expected = 5 * lane;
+            break;
+          case BuiltIn::frag_coord_x:
+            expected = u(static_cast<float>(t.x(lane)) + 0.5f);
+            break;
+          case BuiltIn::frag_coord_y:
+            expected = u(static_cast<float>(t.y(lane)) + 0.5f);
+            break;
+          case BuiltIn::front_facing:
+            expected = t.triangle(lane).front_facing;
+            break;
+          case BuiltIn::local_invocation_x:
+          case BuiltIn::local_invocation_y:
+          case BuiltIn::local_invocation_z:
+            expected = local[axis(BuiltIn::local_invocation_x)];
+            break;
+          case BuiltIn::local_invocation_index:
+            expected = index;
+            break;
+          case BuiltIn::workgroup_x:
+          case BuiltIn::workgroup_y:
+          case BuiltIn::workgroup_z:
+            expected = 2 + axis(BuiltIn::workgroup_x);
+            break;
+          case BuiltIn::num_workgroups_x:
+          case BuiltIn::num_workgroups_y:
+          case BuiltIn::num_workgroups_z:
+            expected = 5 + axis(BuiltIn::num_workgroups_x);
+            break;
+          case BuiltIn::global_invocation_x:
+            expected = 2 * 3 + local[0];
+            break;
+          case BuiltIn::global_invocation_y:
+            expected = 3 * 5 + local[1];
+            break;
+          case BuiltIn::global_invocation_z:
+            expected = 4 * 9 + local[2];
+            break;
+          case BuiltIn::blend_constant_r:
+          case BuiltIn::blend_constant_g:
+          case BuiltIn::blend_constant_b:
+          case BuiltIn::blend_constant_a:
+            expected = u(0.25f * static_cast<float>(axis(BuiltIn::blend_constant_r)));
+            break;
+          case BuiltIn::helper_invocation:
+            expected = (frame.lanes >> lane & 1) != 0 ? 0 : 0xFFFFFFFFu;
+            break;
+          case BuiltIn::lane_index:
+            expected = lane;
+            break;
+          case BuiltIn::kCount:
+            break;
+        }
+        EXPECT_EQ(got[lane], expected) << which << ' ' << lane;
+      }
+    }
+  });
+}
+
+TEST(Op, fetch) {
+  for (SimdTarget target : supported_simd_targets()) {
+    TestFrame test(target);
+    float data[30];
+    for (int i = 0; i < 30; ++i) data[i] = static_cast<float>(i);
+    VertexBinding bindings[2];
+    bindings[0] = {reinterpret_cast<const std::byte*>(data), sizeof data, 16, false};
+    bindings[1] = {reinterpret_cast<const std::byte*>(data), sizeof data, 0, true};
+    VertexBatch batch = {};
+    batch.bindings = bindings;
+    for (uint32_t i = 0; i < kBatchLanes; ++i)
+      batch.vertex_index[i] = i == 9 ? 0xFFFFFFFFu : i, batch.instance_index[i] = i;
+    const TexelFunctions* const two = &texel_functions(*find_format(VK_FORMAT_R32G32_SFLOAT), target);
+    const Attribute attributes[] = {{0, 4, 8, two}, {1, 8, 8, two}};
+    test.frame().vertices = &batch;
+    test.frame().attributes = attributes;
+    test.add(Opcode::fetch, kStore, operands(4, 0, 0, 4, 0));
+    test.add(Opcode::fetch, kStore, operands(8, 0, 0, 1, 1));
+    test.run();
+    Lanes got[5];
+    for (uint32_t k = 0; k < 5; ++k) test.read(4 + k, got[k]);
+    for (uint32_t i = 0; i < kBatchLanes; ++i) {
+      const uint64_t end = uint64_t{batch.vertex_index[i]} * 16 + 12;
+      const bool inside = end <= sizeof data;
+      EXPECT_EQ(f(got[0][i]), inside ? static_cast<float>(4 * i + 1) : 0) << i;
+      EXPECT_EQ(f(got[1][i]), inside ? static_cast<float>(4 * i + 2) : 0);
+      EXPECT_EQ(f(got[2][i]), 0);
+      EXPECT_EQ(f(got[3][i]), 1);
+      EXPECT_EQ(f(got[4][i]), 2);
+    }
+    bindings[0].data = nullptr;
+    bindings[0].size = 0;
+    test.add(Opcode::fetch, kStore, operands(4, 0, 0, 4, 0));
+    test.run();
+    test.read(4, got[0]);
+    test.read(7, got[3]);
+    EXPECT_EQ(f(got[0][0]), 0);
+    EXPECT_EQ(f(got[3][0]), 1);
+  }
+}
+
+// Two textures of 2x2 texels and one that was never written, in an array of three descriptors.
+struct ImageTest {
+  FragmentTest t;
+  uint32_t texels[2][4] = {{0x000000FF, 0x0000FF00, 0x00FF0000, 0xFF000000},
+                           {0x01010101, 0x02020202, 0x03030303, 0x04040404}};
+  TextureView views[2];
+  SamplerState sampler;
+  Descriptor descriptors[3];
+  ResourceTable table;
+  ResourceRef ref = {0, 0, 3, -1};
+  uint16_t list[5] = {0, kNoOperand, 1, 2, kNoOperand};
+
+  explicit ImageTest(SimdTarget target) : t(target, true) {
+    for (int i = 0; i < 2; ++i) {
+      views[i].format = find_format(VK_FORMAT_R8G8B8A8_UNORM);
+      views[i].level_count = views[i].layer_count = 1;
+      views[i].levels[0] = {reinterpret_cast<const std::byte*>(texels[i]), 2, 2, 8};
+      descriptors[i].texture = &views[i];
+      descriptors[i].sampler = &sampler;
+    }
+    table.sets[0] = descriptors;
+    Frame& frame = t.test.frame();
+    frame.resources = &table;
+    frame.refs = &ref;
+    frame.lists = list;
+  }
+  // Descriptor by lane, out of range in the last ones; texel (lane & 1, lane >> 1 & 1).
+  static uint32_t element(uint32_t lane) { return lane >= 60 ? 0xFFFFFFFFu : lane / 4 % 3; }
+  uint32_t expected(uint32_t lane, uint32_t component) const {
+    return element(lane) < 2 ? texels[element(lane)][lane & 3] >> (8 * component) & 255 : 0;
+  }
+  void run(Opcode op, bool floats) {
+    Lanes index, x, y;
+    for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
+      const uint32_t tx = lane & 1, ty = lane >> 1 & 1;
+      index[lane] = element(lane);
+      x[lane] = floats ? u(0.25f + 0.5f * static_cast<float>(tx)) : tx;
+      y[lane] = floats ? u(0.25f + 0.5f * static_cast<float>(ty)) : ty;
+    }
+    t.test.write(0, index);
+    t.test.write(1, x);
+    t.test.write(2, y);
+    t.test.add(op, kStore, operands(4));
+    t.test.run();
+    for (uint32_t c = 0; c < 4; ++c) {
+      const Lanes got = t.result_of(4 + c);
+      for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
+        EXPECT_EQ(f(got[lane]), static_cast<float>(expected(lane, c)) / 255.0f)
+            << op_info(op).name << ' ' << lane << ' ' << c;
+      }
+    }
+  }
+};
+TEST(Op, sample_2d) {
+  for (SimdTarget target : supported_simd_targets()) ImageTest(target).run(Opcode::sample_2d, true);
+}
+TEST(Op, sample_2d_lod) {
+  for (SimdTarget target : supported_simd_targets()) ImageTest(target).run(Opcode::sample_2d_lod, true);
+}
+TEST(Op, fetch_2d) {
+  for (SimdTarget target : supported_simd_targets()) ImageTest(target).run(Opcode::fetch_2d, false);
+}
+TEST(Op, size_2d) {
+  for (SimdTarget target : supported_simd_targets()) {
+    ImageTest test(target);
+    Lanes index, level;
+    index.fill(0);
+    for (uint32_t i = 0; i < kBatchLanes; ++i) level[i] = i;
+    test.t.test.write(0, index);
+    test.t.test.write(1, level);
+    test.t.test.add(Opcode::size_2d, kStore, operands(4));
+    test.t.test.run();
+    const Lanes width = test.t.result_of(4), height = test.t.result_of(5);
+    EXPECT_EQ(width[0], 2u);
+    EXPECT_EQ(height[0], 2u);
+    EXPECT_EQ(width[1], 0u);
+  }
+}
+
+}  // namespace
+}  // namespace lapilli
