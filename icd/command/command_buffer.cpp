@@ -17,7 +17,11 @@ void CommandBuffer::reset(bool release_memory) {
 }
 
 CommandPool::~CommandPool() {
-  while (first != nullptr) free(*first);
+  for (CommandBuffer* buffer = first; buffer != nullptr;) {
+    CommandBuffer* const next = buffer->next;
+    destroy(buffer);
+    buffer = next;
+  }
 }
 
 void CommandPool::free(CommandBuffer& buffer) {
