@@ -130,6 +130,21 @@ std::optional<uint32_t> Lowering::constant_bits(Reg reg) const {
   return code_.registers[reg].bits;
 }
 
+Reg Lowering::emit(Opcode op, Reg a, Reg b, Reg c) {
+  const std::optional<uint32_t> x = constant_bits(a), y = constant_bits(b);
+  const bool conjunction = op == Opcode::iand;
+  if (conjunction || op == Opcode::ior) {
+    const uint32_t neutral = conjunction ? 0xFFFFFFFF : 0;
+    if (x && y) return constant(conjunction ? *x & *y : *x | *y);
+    if (x && (*x == neutral || *x == ~neutral)) return *x == neutral ? b : a;
+    if (y && (*y == neutral || *y == ~neutral)) return *y == neutral ? a : b;
+  }
+  if (op == Opcode::inot && x) return constant(~*x);
+  if (op == Opcode::ieq && x && y) return constant(*x == *y ? 0xFFFFFFFF : 0);
+  if (op == Opcode::select && x) return *x != 0 ? b : c;
+  return code_.emit(op, a, b, c);
+}
+
 void Lowering::lower_instruction(const SpirvInst& inst) {
   const size_t first = code_.instructions.size();
   word_ = inst.word;

@@ -157,11 +157,12 @@ void Lowering::lower_terminator(const SpirvInst& inst) {
     case spv::Op::OpBranch:
       return go_to(function.block_of(inst[1]));
     case spv::Op::OpBranchConditional: {
-      const Reg condition = scalar(inst[1]);
+      Reg condition = scalar(inst[1]);
       const uint32_t yes = destination(function.block_of(inst[2])), no = destination(function.block_of(inst[3]));
       if (type_of(inst[1]).kind != Kind::boolean) return fail("its condition is no boolean");
       if (const auto bits = constant_bits(condition)) return go_to(*bits != 0 ? yes : no);
       if (yes == no) return go_to(yes);
+      if (!failed() && code_.registers[condition].kind == RegKind::variable) condition = emit(Opcode::mov, condition);
       make_edge(yes, condition, false);
       make_edge(no, condition, true);
       const uint32_t yes_mask = mark_pending(frame_->blocks[yes]);

@@ -113,7 +113,8 @@ class Lowering {
   Reg scalar(uint32_t id) { return data(id, 1)[0]; }
   const Pointer* pointer(uint32_t id);
   std::optional<uint32_t> constant_bits(Reg reg) const;
-  Reg emit(Opcode op, Reg a = kNoReg, Reg b = kNoReg, Reg c = kNoReg) { return code_.emit(op, a, b, c); }
+  // Folds logic with constants, so that branches over specialization constants are decided here.
+  Reg emit(Opcode op, Reg a = kNoReg, Reg b = kNoReg, Reg c = kNoReg);
   Reg constant(uint32_t bits) { return code_.constant(bits); }
   Reg constant_f(float value) { return code_.constant_f(value); }
   void lower_instruction(const SpirvInst& inst);

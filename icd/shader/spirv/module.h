@@ -109,6 +109,7 @@ class SpirvModule {
   std::vector<Id> ids;
   std::vector<Decoration> decorations;  // sorted
   std::vector<SpirvFunction> functions;
+  uint32_t functions_start = 0;  // word of the first one
   std::vector<SpirvEntryPoint> entry_points;
   std::vector<Mode> modes;
   std::vector<uint32_t> globals;  // words of constants, undefs and variables outside functions, in order
@@ -122,6 +123,8 @@ std::string_view spirv_string(const uint32_t* words, uint32_t max_words);
 Result<SpirvFunction> read_function(const SpirvModule& module, uint32_t& word);
 // Blocks in structured order, loops, reachability; phis fit their predecessors.
 Result<void> order_blocks(const SpirvModule& module, SpirvFunction& function);
+// Each use of an id is dominated by its definition, in the same function or outside of all; fills `escaping`.
+Result<void> check_uses(const SpirvModule& module, SpirvFunction& function);
 // A type's declaration is one that is supported and well formed.
 Result<void> check_type(const SpirvModule& module, const SpirvInst& inst);
 

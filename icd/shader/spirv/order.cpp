@@ -1,9 +1,7 @@
 // Brings a function's blocks into structured order and checks that masks can run them: only loops jump backwards, and
 // a loop is entered at its header.
 #include <algorithm>
-#include <unordered_map>
 
-#include "shader/spirv/grammar.h"
 #include "shader/spirv/module.h"
 
 namespace lapilli {
@@ -11,6 +9,7 @@ namespace {
 
 constexpr uint32_t kMaxLoopDepth = 200;
 constexpr size_t kMaxPhiParents = 8192;
+constexpr size_t kMaxBlocks = 1 << 15;
 
 class Orderer {
  public:
@@ -18,6 +17,7 @@ class Orderer {
       : m_(module), f_(function), reachable_(function.blocks.size()) {}
 
   Result<void> run() {
+    if (f_.blocks.size() > kMaxBlocks) return m_.error(f_.word, "has too many blocks");
     mark_reachable();
     const std::vector<uint32_t> all = structured_order();
     std::vector<uint32_t> place(f_.blocks.size());  // reachable blocks before it, for unreachable ones too
@@ -42,8 +42,7 @@ class Orderer {
     for (const uint32_t index : f_.order) {
       if (Result<void> r = check_phis(f_.blocks[index]); !r) return r;
     }
-    if (!f_.loops.empty()) find_escaping();
-    return {};
+    return check_uses(m_, f_);
   }
 
  private:
@@ -144,43 +143,6 @@ class Orderer {
       if (given != expected || given.empty()) return m_.error(word, "does not name the blocks that lead here");
     }
     return {};
-  }
-
-  bool inside(uint32_t position, uint32_t loop) const {
-    return position >= f_.loops[loop].header && position < f_.loops[loop].end;
-  }
-
-  void find_escaping() {
-    std::unordered_map<uint32_t, uint32_t> loop_of;  // id -> loop that defines it
-    for (const uint32_t index : f_.order) {
-      const SpirvBlock& block = f_.blocks[index];
-      for (uint32_t word = block.first; word < block.end; word += m_.at(word).count) {
-        const SpirvInst inst = m_.at(word);
-        const char* signature = find_spirv_op(static_cast<uint32_t>(inst.op))->signature;
-        if (signature[0] == 't' && signature[1] == 'r' && block.loop != kNoLoop) loop_of[inst[2]] = block.loop;
-      }
-    }
-    for (const uint32_t index : f_.order) {
-      const SpirvBlock& block = f_.blocks[index];
-      for (uint32_t word = block.first; word < block.end; word += m_.at(word).count) {
-        const SpirvInst inst = m_.at(word);
-        walk_operands(find_spirv_op(static_cast<uint32_t>(inst.op))->signature, inst.words, inst.count, 1,
-                      [&](OperandKind kind, uint32_t at) {
-                        if (kind != OperandKind::id) return;
-                        const auto found = loop_of.find(inst[at]);
-                        if (found == loop_of.end()) return;
-                        uint32_t position = block.position;
-                        if (inst.op == spv::Op::OpPhi) {  // is read at the end of the parent
-                          const uint32_t parent = at % 2 == 1 ? f_.block_of(inst[at + 1]) : kNoBlock;
-                          if (parent == kNoBlock || f_.blocks[parent].position == kNoBlock) return;
-                          position = f_.blocks[parent].position;
-                        }
-                        if (!inside(position, found->second)) f_.escaping.push_back(inst[at]);
-                      });
-      }
-    }
-    std::sort(f_.escaping.begin(), f_.escaping.end());
-    f_.escaping.erase(std::unique(f_.escaping.begin(), f_.escaping.end()), f_.escaping.end());
   }
 
   const SpirvModule& m_;

@@ -56,6 +56,7 @@ class Parser {
     for (uint32_t word = kHeaderWords; word < m_.words.size();) {
       const SpirvInst inst = m_.at(word);
       if (inst.op == spv::Op::OpFunction) {
+        if (m_.functions_start == 0) m_.functions_start = word;
         Result<SpirvFunction> function = read_function(m_, word);
         if (!function) return function.error();
         m_.functions.push_back(std::move(*function));

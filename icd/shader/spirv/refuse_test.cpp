@@ -1,0 +1,204 @@
+// What is invalid or not supported is refused, and the message names it.
+#include <functional>
+
+#include "shader/spirv/module.h"
+#include "shader/spirv/test/run_shader.h"
+
+namespace lapilli {
+namespace {
+
+using spv::Op;
+
+// A compute shader that does nothing, in pieces that tests change. Ids up to kFree are taken.
+enum Ids : uint32_t { kVoid = 1, kFunctionType, kMain, kEntryLabel, kUint, kFloat, kOne, kFree };
+
+struct Assembler {
+  std::vector<uint32_t> head, annotations, globals, body, functions;
+  uint32_t version = 0x00010000;
+
+  static void add(std::vector<uint32_t>& to, Op op, std::initializer_list<uint32_t> operands) {
+    to.push_back(static_cast<uint32_t>(op) | static_cast<uint32_t>(operands.size() + 1) << 16);
+    to.insert(to.end(), operands);
+  }
+
+  Assembler() {
+    add(head, Op::OpCapability, {static_cast<uint32_t>(spv::Capability::Shader)});
+    add(globals, Op::OpTypeVoid, {kVoid});
+    add(globals, Op::OpTypeFunction, {kFunctionType, kVoid});
+    add(globals, Op::OpTypeInt, {kUint, 32, 0});
+    add(globals, Op::OpTypeFloat, {kFloat, 32});
+    add(globals, Op::OpConstant, {kUint, kOne, 1});
+  }
+
+  std::vector<uint32_t> words() const {
+    std::vector<uint32_t> all{spv::MagicNumber, version, 0, 100, 0};
+    const auto append = [&](const std::vector<uint32_t>& part) { all.insert(all.end(), part.begin(), part.end()); };
+    append(head);
+    add(all, Op::OpMemoryModel, {0, 1});
+    add(all, Op::OpEntryPoint,
+        {static_cast<uint32_t>(spv::ExecutionModel::GLCompute), kMain, 0x6E69616D, 0});  // "main"
+    add(all, Op::OpExecutionMode, {kMain, static_cast<uint32_t>(spv::ExecutionMode::LocalSize), 1, 1, 1});
+    append(annotations);
+    append(globals);
+    add(all, Op::OpFunction, {kVoid, kMain, 0, kFunctionType});
+    add(all, Op::OpLabel, {kEntryLabel});
+    append(body);
+    add(all, Op::OpReturn, {});
+    add(all, Op::OpFunctionEnd, {});
+    append(functions);
+    return all;
+  }
+};
+
+std::string outcome(const std::vector<uint32_t>& words, std::string_view entry = "main") {
+  Result<std::shared_ptr<const SpirvModule>> module = parse_spirv(words);
+  if (!module) {
+    EXPECT_EQ(module.error().code, VK_ERROR_UNKNOWN);
+    return module.error().message;
+  }
+  const Result<Code> code = make_compute_code({*module, entry, {}}, {});
+  EXPECT_TRUE(code.ok() || code.error().code == VK_ERROR_UNKNOWN);
+  return code.ok() ? verify(*code) : code.error().message;
+}
+
+std::string outcome_of(const std::function<void(Assembler&)>& change) {
+  Assembler assembler;
+  change(assembler);
+  return outcome(assembler.words());
+}
+
+#define EXPECT_REFUSED(needle, ...)                                                \
+  {                                                                                \
+    const std::string text = outcome_of([](Assembler& a) { __VA_ARGS__; });        \
+    EXPECT_NE(text.find(needle), std::string::npos) << "the message is: " << text; \
+  }
+
+TEST(SpirvRefuse, TheUnchangedModuleIsFine) {
+  EXPECT_EQ(outcome_of([](Assembler&) {}), "");
+}
+
+TEST(SpirvRefuse, Header) {
+  std::vector<uint32_t> words = Assembler().words();
+  EXPECT_NE(outcome({}).find("shorter than its header"), std::string::npos);
+  words[0] = 1;
+  EXPECT_NE(outcome(words).find("magic number"), std::string::npos);
+  EXPECT_REFUSED("version 1.4", a.version = 0x00010400);
+  words = Assembler().words();
+  words[3] = 0xFFFFFFFF;
+  EXPECT_NE(outcome(words).find("bound"), std::string::npos);
+}
+
+TEST(SpirvRefuse, EntryPoint) {
+  EXPECT_NE(outcome(Assembler().words(), "other").find("no GLCompute entry point \"other\""), std::string::npos);
+}
+
+TEST(SpirvRefuse, WhatIsNotSupportedByName) {
+  EXPECT_REFUSED("capability Float64", a.add(a.head, Op::OpCapability, {10}));
+  EXPECT_REFUSED("capability Geometry", a.add(a.head, Op::OpCapability, {2}));
+  EXPECT_REFUSED("64-bit floats", a.add(a.globals, Op::OpTypeFloat, {20, 64}));
+  EXPECT_REFUSED("16-bit integers", a.add(a.globals, Op::OpTypeInt, {20, 16, 0}));
+  EXPECT_REFUSED("Workgroup", a.add(a.globals, Op::OpTypePointer, {20, 4, kUint}));
+  EXPECT_REFUSED("Cube", a.add(a.globals, Op::OpTypeImage, {20, kFloat, 3, 0, 0, 0, 1, 0}));
+  EXPECT_REFUSED("storage images", a.add(a.globals, Op::OpTypeImage, {20, kFloat, 1, 0, 0, 0, 2, 1}));
+  EXPECT_REFUSED("OpControlBarrier", a.add(a.body, Op::OpControlBarrier, {kOne, kOne, kOne}));
+  EXPECT_REFUSED("extension SPV_X", a.add(a.head, Op::OpExtension, {0x5F565053, 0x58}));
+  EXPECT_REFUSED("instruction set OpenCL", a.add(a.head, Op::OpExtInstImport, {20, 0x6E65704F, 0x4C43}));
+  EXPECT_REFUSED("InterpolateAtCentroid is not supported",
+                 a.add(a.head, Op::OpExtInstImport, {20, 0x4C534C47, 0x6474732E, 0x3035342E, 0});
+                 a.add(a.body, Op::OpExtInst, {kFloat, 21, 20, 76, kOne}));
+  EXPECT_REFUSED("built-in SubgroupSize is not supported", {
+    a.add(a.annotations, Op::OpDecorate, {22, 11, 36});
+    a.add(a.globals, Op::OpTypePointer, {21, 1, kUint});
+    a.add(a.globals, Op::OpVariable, {21, 22, 1});
+    a.head.clear();
+    a.add(a.head, Op::OpCapability, {1});
+    a.add(a.head, Op::OpEntryPoint, {5, kMain, 0x6E69616D, 0, 22});
+  });
+}
+
+TEST(SpirvRefuse, MessagesNameInstructionWordNameAndLine) {
+  const std::string text = outcome_of([](Assembler& a) {
+    a.add(a.head, Op::OpString, {30, 0x65642E61, 0x0062});  // "a.deb"
+    a.add(a.head, Op::OpName, {31, 0x006D7573});            // "sum"
+    a.add(a.body, Op::OpLine, {30, 17, 1});
+    a.add(a.body, Op::OpFAdd, {kFloat, 31, kOne, kOne});
+  });
+  EXPECT_TRUE(text.starts_with("SPIR-V: OpFAdd %31 \"sum\" at word ")) << text;
+  EXPECT_NE(text.find("(a.deb:17): %7 has the wrong type"), std::string::npos) << text;
+}
+
+TEST(SpirvRefuse, Ids) {
+  EXPECT_REFUSED("%50 is not defined", a.add(a.body, Op::OpIAdd, {kUint, 20, 50, kOne}));
+  EXPECT_REFUSED("already defined", a.add(a.globals, Op::OpTypeBool, {kUint}));
+  EXPECT_REFUSED("not below the bound", a.add(a.globals, Op::OpTypeBool, {100}));
+  EXPECT_REFUSED("is no type", a.add(a.body, Op::OpIAdd, {kOne, 20, kOne, kOne}));
+  EXPECT_REFUSED("does not dominate", a.add(a.body, Op::OpIAdd, {kUint, 20, 20, kOne}));
+  EXPECT_REFUSED("declared further down", a.add(a.globals, Op::OpTypeStruct, {20, 20}));
+  EXPECT_REFUSED("too few or too many operands", a.add(a.body, Op::OpIAdd, {kUint, 20, kOne}));
+  EXPECT_REFUSED("no such instruction", a.body.push_back(0x0001FFF0));
+  EXPECT_REFUSED("leaves the module", a.functions.push_back(0x00500000));
+  EXPECT_REFUSED("leaves the module", a.functions.push_back(0x00000000));
+}
+
+TEST(SpirvRefuse, ControlFlow) {
+  EXPECT_REFUSED("is no block of this function", a.add(a.body, Op::OpBranch, {kOne}); a.add(a.body, Op::OpLabel, {20}));
+  EXPECT_REFUSED("first block", a.add(a.body, Op::OpBranch, {kEntryLabel}); a.add(a.body, Op::OpLabel, {20}));
+  EXPECT_REFUSED("jumps back", a.add(a.body, Op::OpBranch, {20}); a.add(a.body, Op::OpLabel, {20});
+                 a.add(a.body, Op::OpBranch, {20}); a.add(a.body, Op::OpLabel, {21}));
+  EXPECT_REFUSED("does not name the blocks", a.add(a.body, Op::OpBranch, {20}); a.add(a.body, Op::OpLabel, {20});
+                 a.add(a.body, Op::OpPhi, {kUint, 21, kOne, 20}));
+  EXPECT_REFUSED("recursion", a.add(a.body, Op::OpFunctionCall, {kVoid, 20, kMain}));
+  EXPECT_REFUSED("no end", a.add(a.body, Op::OpLabel, {20}));
+  EXPECT_REFUSED("is for fragment shaders", a.add(a.body, Op::OpKill, {}); a.add(a.body, Op::OpLabel, {20}));
+}
+
+TEST(SpirvRefuse, AbsurdSizes) {
+  EXPECT_REFUSED("size that is not supported", {
+    a.add(a.globals, Op::OpConstant, {kUint, 20, 0x7FFFFFFF});
+    a.add(a.globals, Op::OpTypeArray, {21, kFloat, 20});
+    a.add(a.globals, Op::OpTypeArray, {22, 21, 20});
+    a.add(a.globals, Op::OpTypePointer, {23, 7, 22});
+    a.add(a.body, Op::OpVariable, {23, 24, 7});
+  });
+  EXPECT_REFUSED("from 1 to 1024 invocations", {
+    a.add(a.annotations, Op::OpDecorate, {22, 11, 25});
+    a.add(a.globals, Op::OpTypeVector, {20, kUint, 3});
+    a.add(a.globals, Op::OpConstant, {kUint, 21, 0x10000});
+    a.add(a.globals, Op::OpConstantComposite, {20, 22, 21, 21, 21});
+  });
+}
+
+TEST(SpirvRefuse, DeepTypes) {
+  Assembler a;
+  std::vector<uint32_t> words = a.words();
+  for (uint32_t id = 20; id < 220; ++id) a.add(a.globals, Op::OpTypeStruct, {id, id == 20 ? uint32_t{kUint} : id - 1});
+  words = a.words();
+  words[3] = 300;
+  EXPECT_NE(outcome(words).find("nested too deeply"), std::string::npos);
+}
+
+// Each function calls the next one twice: 2^19 times the last one, were it inlined.
+TEST(SpirvRefuse, ExplosionByInlining) {
+  const std::string text = outcome_of([](Assembler& a) {
+    for (uint32_t f = 0; f < 20; ++f) {
+      const uint32_t id = 20 + 4 * f;
+      std::vector<uint32_t>& code = f == 0 ? a.body : a.functions;
+      if (f != 0) {
+        a.add(code, Op::OpFunction, {kVoid, id - 4, 0, kFunctionType});
+        a.add(code, Op::OpLabel, {id - 3});
+      }
+      if (f != 19) {
+        a.add(code, Op::OpFunctionCall, {kVoid, id - 1 - 1, id});
+        a.add(code, Op::OpFunctionCall, {kVoid, id - 1, id});
+      }
+      if (f != 0) {
+        a.add(code, Op::OpReturn, {});
+        a.add(code, Op::OpFunctionEnd, {});
+      }
+    }
+  });
+  EXPECT_NE(text.find("the program is too large"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace lapilli

@@ -1,0 +1,76 @@
+#version 450
+// What GLSL.std.450 makes of several ops; inputs x, y, z for each invocation.
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0) buffer Out { float results[]; };
+layout(set = 0, binding = 1) readonly buffer In { vec4 inputs[]; };
+layout(set = 0, binding = 2) buffer Bits { uint bits[]; };
+
+void main() {
+  uint n = gl_GlobalInvocationID.x;
+  vec4 x = inputs[n * 2u];
+  vec4 y = inputs[n * 2u + 1u];
+  uint at = n * 40u;
+  float whole;
+  results[at] = modf(x.x, whole);
+  results[at + 1u] = whole;
+  int exponent;
+  results[at + 2u] = frexp(x.y, exponent);
+  results[at + 3u] = float(exponent);
+  results[at + 4u] = length(x);
+  results[at + 5u] = distance(x, y);
+  vec3 unit = normalize(x.xyz);
+  results[at + 6u] = unit.x;
+  results[at + 7u] = unit.z;
+  vec3 c = cross(x.xyz, y.xyz);
+  results[at + 8u] = c.x;
+  results[at + 9u] = c.y;
+  results[at + 10u] = c.z;
+  results[at + 11u] = reflect(x.xy, y.xy).x;
+  results[at + 12u] = refract(unit, normalize(y.xyz), 0.75).y;
+  results[at + 13u] = faceforward(x, y, x.wzyx).z;
+  results[at + 14u] = mix(x.x, y.x, 0.25);
+  results[at + 15u] = smoothstep(-1.0, 2.0, x.z);
+  results[at + 16u] = step(x.x, y.x);
+  results[at + 17u] = clamp(x.y, -0.5, 0.75);
+  mat4 m = mat4(x, y, x.yzwx * 2.0, vec4(1, 2, 3, 5));
+  results[at + 18u] = determinant(m);
+  mat4 identity = m * inverse(m);
+  results[at + 19u] = identity[0][0] + identity[1][1] + identity[2][2] + identity[3][3];
+  results[at + 20u] = identity[0][1] + identity[3][2] + identity[1][3];
+  mat3 m3 = mat3(x.xyz, y.xyz, vec3(1, -2, 3));
+  results[at + 21u] = inverse(m3)[1][2] * determinant(m3);
+  mat2 m2 = mat2(x.xy, y.xy);
+  results[at + 22u] = inverse(m2)[1][0] * determinant(m2);
+  results[at + 23u] = radians(x.x);
+  results[at + 24u] = degrees(x.x);
+  results[at + 25u] = outerProduct(x.xy, y.xyz)[2][1];
+  results[at + 26u] = fma(x.x, y.x, x.y);
+  results[at + 27u] = ldexp(x.x, 3);
+  results[at + 28u] = (x.xyz * mat3(x.xyz, y.xyz, x.yzx))[1];
+  results[at + 29u] = (m * y)[2];
+  results[at + 30u] = mod(x.x, y.y);
+
+  bits[n * 12u] = packUnorm4x8(x);
+  bits[n * 12u + 1u] = packSnorm4x8(x);
+  bits[n * 12u + 2u] = packUnorm2x16(x.zw);
+  bits[n * 12u + 3u] = packSnorm2x16(x.zw);
+  bits[n * 12u + 4u] = packHalf2x16(x.xy);
+  uint word = floatBitsToUint(x.x) * 2654435761u;
+  vec4 unpacked = unpackUnorm4x8(word);
+  results[at + 31u] = unpacked.y;
+  unpacked = unpackSnorm4x8(word);
+  results[at + 32u] = unpacked.w;
+  results[at + 33u] = unpackSnorm2x16(word).x;
+  results[at + 34u] = unpackHalf2x16(packHalf2x16(y.xy)).y;
+  uint carry, high, low, borrow;
+  uint sum = uaddCarry(word, 0x90000000u, carry);
+  umulExtended(word, word, high, low);
+  uint difference = usubBorrow(word, 0x90000000u, borrow);
+  bits[n * 12u + 5u] = carry + 2u * borrow;
+  bits[n * 12u + 6u] = high;
+  bits[n * 12u + 7u] = bitfieldInsert(word, sum, 5, 9);
+  bits[n * 12u + 8u] = bitfieldExtract(word, 7, 13);
+  bits[n * 12u + 9u] = uint(bitfieldExtract(int(word), 20, 12));
+  bits[n * 12u + 10u] = uint(findMSB(int(word)) + findLSB(word) * 100 + bitCount(word) * 10000);
+  bits[n * 12u + 11u] = difference;
+}
