@@ -35,6 +35,12 @@ constexpr std::array<VkVertexInputAttributeDescription, 2> kVertexAttributes = {
 }};
 constexpr std::array<uint32_t, 6> kQuadIndices = {0, 1, 2, 2, 1, 3};
 
+// Painting takes a second, and tests make the scene many times.
+const Texture& painted_once() {
+  static const Texture picture = volcano_picture(kPictureWidth, kPictureHeight);
+  return picture;
+}
+
 Triangle turned(const Triangle& triangle, double angle) {
   const Point center = {(triangle[0].x + triangle[1].x + triangle[2].x) / 3,
                         (triangle[0].y + triangle[1].y + triangle[2].y) / 3};
@@ -96,7 +102,7 @@ class TriangleBlit final : public Scene {
       : options_(options),
         backdrop_(backdrop_quad()),
         cut_out_(cut_out_quad(blit, static_cast<double>(options.angle))),
-        picture_(volcano_picture(kPictureWidth, kPictureHeight)),
+        picture_(painted_once()),
         mask_(triangle_mask(kPictureWidth, kPictureHeight, blit.source, kMaskSoftness)) {}
 
   SceneGeometry geometry() const override {
