@@ -107,14 +107,15 @@ bool Lowering::begin_block(uint32_t index) {
   const SpirvBlock& block = function.blocks[index];
   BlockState& state = frame_->blocks[index];
   frame_->block = index;
-  if (frame_->fallthrough == index && !function.is_header(block)) {
-    frame_->fallthrough = kNoBlock;
-    return true;
-  }
+  const bool falls_through = frame_->fallthrough == index;
   frame_->fallthrough = kNoBlock;
-  if (!state.reached) return false;
+  if (!falls_through && !state.reached) return false;
   if (!function.is_header(block)) {
-    enter(state);
+    if (!falls_through) enter(state);
+    // The other ways here turned out not to be taken: no variables are needed.
+    if (state.edges == 1) {
+      for (const auto& [id, values] : state.phis) bind(id, values);
+    }
     return true;
   }
   LoopState& loop = frame_->loops[block.loop];
@@ -301,7 +302,7 @@ void Lowering::copy_to_phis(uint32_t target, Reg condition, bool negate) {
     if (inst.op != spv::Op::OpPhi) break;
     const uint64_t count = type(inst[1]).components;
     if (count == 0 || count > kMaxValueComponents) return fail("leads to a phi of a type that is not supported");
-    if (!state.phis_made) {
+    if (state.edges == 0) {
       const Reg first = code_.new_variable(static_cast<uint32_t>(count));
       const std::span<Reg> regs = allocate(static_cast<size_t>(count));
       for (uint32_t i = 0; i < count; ++i) regs[i] = first + i;
@@ -311,13 +312,14 @@ void Lowering::copy_to_phis(uint32_t target, Reg condition, bool negate) {
     for (uint32_t i = 3; i + 1 < inst.count; i += 2) {
       if (function.block_of(inst[i + 1]) != frame_->block) continue;
       const std::span<const Reg> values = data(inst[i], count);
+      if (state.edges == 0) state.phis.emplace_back(inst[2], values);
       for (size_t c = 0; c < count; ++c) {
         if (variables[c] != values[c]) moves.emplace_back(variables[c], values[c]);
       }
       break;
     }
   }
-  state.phis_made = true;
+  ++state.edges;
   if (failed()) return;
   std::vector<Reg> written;
   for (const auto& move : moves) written.push_back(move.first);

@@ -145,9 +145,10 @@ class Lowering {
   // --- lower_control.cpp ---
   struct BlockState {
     uint32_t mask = kNoReg;
-    bool reached = false;  // something branches to it
-    bool pending = false;  // branched to and not yet entered
-    bool phis_made = false;
+    bool reached = false;                                         // something branches to it
+    bool pending = false;                                         // branched to and not yet entered
+    uint32_t edges = 0;                                           // made so far
+    std::vector<std::pair<uint32_t, std::span<const Reg>>> phis;  // id, value on the first edge
     Known known;
   };
   struct LoopState {
