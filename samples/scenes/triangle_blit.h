@@ -10,7 +10,7 @@ struct TriangleBlitOptions {
   // In the picture, whose size is 640 x 480 texels.
   Triangle source = {{{240, 50}, {98, 335}, {390, 362}}};
   // On the screen, in units of 640 x 480; SceneOptions::angle turns it about its centre.
-  Triangle target = {{{600, 384}, {618, 56}, {372, 226}}};
+  Triangle target = {{{589, 376}, {614, 48}, {370, 221}}};
 };
 
 std::unique_ptr<Scene> create_triangle_blit(const SceneOptions& options);
