@@ -51,6 +51,7 @@ std::vector<Result> Workload::run(const samples::Context& context, const std::fu
     out.push_back({std::move(name), std::move(bytes)});
   };
   for (auto& [name, scene] : scenes_) {
+    if (!scene) continue;
     samples::SceneRenderer renderer(context, std::move(scene));
     renderer.draw_frame();
     const samples::Frame frame = renderer.read_back();

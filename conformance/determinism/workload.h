@@ -21,10 +21,12 @@ struct Result {
 class Workload {
  public:
   Workload();
-  // Everything on one device. `after_part` is called after each part, e.g. to look at the control register.
+  // Everything on one device; scenes only if they have been prepared. `after_part` is called after each part, e.g. to
+  // look at the control register.
   std::vector<Result> run(const samples::Context& context, const std::function<void()>& after_part = {}) const;
   // Scenes hold Vulkan objects once they have been drawn: new ones for every run, made before the mode is changed.
   void prepare_scenes();
+  void forget_scenes() { scenes_.clear(); }
 
  private:
   std::vector<TriangleDraw> triangles_, blended_;
