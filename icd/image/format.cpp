@@ -34,14 +34,18 @@ VkFormatProperties format_properties(VkFormat format) {
   const FormatInfo* info = find_format(format);
   if (info == nullptr) return properties;
   const auto add = [info](FormatFeature feature, VkFormatFeatureFlags bit) { return info->has(feature) ? bit : 0u; };
-  const VkFormatFeatureFlags image = add(kSampled, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT) |
+  // Blits sample their source and pack their target; those of depth are left out.
+  const bool color = info->aspects == VK_IMAGE_ASPECT_COLOR_BIT;
+  const VkFormatFeatureFlags blit =
+      color ? add(kSampled, VK_FORMAT_FEATURE_BLIT_SRC_BIT) | add(kColorTarget, VK_FORMAT_FEATURE_BLIT_DST_BIT) : 0u;
+  const VkFormatFeatureFlags image = blit | add(kSampled, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT) |
                                      add(kFilterable, VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT) |
                                      add(kColorTarget, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT) |
                                      add(kBlendable, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) |
                                      add(kDepthTarget, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT);
   properties.optimalTilingFeatures = image;
   // All images are row-major, so linear ones can do the same. Depth is left out: nobody asks for it.
-  if (info->aspects == VK_IMAGE_ASPECT_COLOR_BIT) properties.linearTilingFeatures = image;
+  if (color) properties.linearTilingFeatures = image;
   properties.bufferFeatures = add(kVertex, VK_FORMAT_FEATURE_VERTEX_BUFFER_BIT);
   return properties;
 }

@@ -18,11 +18,10 @@ Result<void> check_raster(const Info& info) {
   if (raster.polygonMode != VK_POLYGON_MODE_FILL) {
     return unsupported("polygonMode: the feature fillModeNonSolid is not offered");
   }
-  if (info.pTessellationState != nullptr && info.pInputAssemblyState->topology == VK_PRIMITIVE_TOPOLOGY_PATCH_LIST) {
-    return unsupported("tessellation: the feature tessellationShader is not offered");
-  }
-  if (info.pInputAssemblyState->topology > VK_PRIMITIVE_TOPOLOGY_TRIANGLE_FAN) {
-    return unsupported("topology " + std::to_string(info.pInputAssemblyState->topology) + " is not supported");
+  const VkPrimitiveTopology topology = info.pInputAssemblyState->topology;
+  if (topology != VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST && topology != VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP &&
+      topology != VK_PRIMITIVE_TOPOLOGY_TRIANGLE_FAN) {
+    return unsupported("topology " + std::to_string(topology) + " is not supported: only triangles are drawn");
   }
   return {};
 }
