@@ -3,7 +3,9 @@
 // The accumulator is a whole batch of 64 lanes in 4 or 8 vector registers. Each handler ends in a jump to the next, so
 // that the accumulator is never in memory. Where 64 lanes do not fit the argument registers (128-bit vectors), and in
 // builds that keep calls (sanitizers, no optimization), handlers return the next op to a loop, and the accumulator is
-// Frame::accumulator. The bodies of the ops are the same.
+// Frame::accumulator. The bodies of the ops are the same. clang 14 has the loop too: it decides by the options of the
+// whole file, not by the function's target, whether wide vectors are passed in registers, and a tail call that passes
+// them on the stack overwrites its caller's frame.
 #if defined(LAPILLI_SHADER_MACHINE_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAPILLI_SHADER_MACHINE_INL_H
 #undef LAPILLI_SHADER_MACHINE_INL_H
@@ -17,25 +19,25 @@
 #undef LAPILLI_ACCUMULATOR
 #undef LAPILLI_PASS
 #undef LAPILLI_EACH
-#undef LAPILLI_MUST_TAIL
 #undef LAPILLI_TAIL_CALLS
-#if defined(__OPTIMIZE__) && !defined(LAPILLI_SANITIZED) && HWY_TARGET == HWY_AVX3
+#undef LAPILLI_VECTOR_ARGUMENTS
+#if defined(__OPTIMIZE__) && !defined(LAPILLI_SANITIZED) && !defined(__clang__)
+#define LAPILLI_VECTOR_ARGUMENTS 1
+#else
+#define LAPILLI_VECTOR_ARGUMENTS 0
+#endif
+#if LAPILLI_VECTOR_ARGUMENTS && HWY_TARGET == HWY_AVX3
 #define LAPILLI_TAIL_CALLS 1
 #define LAPILLI_ACCUMULATOR U x0, U x1, U x2, U x3
 #define LAPILLI_PASS x0, x1, x2, x3
 #define LAPILLI_EACH(DO) DO(0) DO(1) DO(2) DO(3)
-#elif defined(__OPTIMIZE__) && !defined(LAPILLI_SANITIZED) && HWY_TARGET == HWY_AVX2
+#elif LAPILLI_VECTOR_ARGUMENTS && HWY_TARGET == HWY_AVX2
 #define LAPILLI_TAIL_CALLS 1
 #define LAPILLI_ACCUMULATOR U x0, U x1, U x2, U x3, U x4, U x5, U x6, U x7
 #define LAPILLI_PASS x0, x1, x2, x3, x4, x5, x6, x7
 #define LAPILLI_EACH(DO) DO(0) DO(1) DO(2) DO(3) DO(4) DO(5) DO(6) DO(7)
 #else
 #define LAPILLI_TAIL_CALLS 0
-#endif
-#if defined(__clang__)
-#define LAPILLI_MUST_TAIL [[clang::musttail]]
-#else
-#define LAPILLI_MUST_TAIL  // g++ makes sibling calls into jumps; a test looks at the object code
 #endif
 
 HWY_BEFORE_NAMESPACE();
@@ -101,7 +103,7 @@ struct Step<Body, kForm, R(A, B, C)> {
 using Tail = void (*)(const Op*, Frame*, LAPILLI_ACCUMULATOR);
 #define LAPILLI_NEXT(next)      \
   const Op* const after = next; \
-  LAPILLI_MUST_TAIL return reinterpret_cast<Tail>(after->handler)(after, frame, LAPILLI_PASS)
+  return reinterpret_cast<Tail>(after->handler)(after, frame, LAPILLI_PASS)
 
 // Ops of 64 independent lanes, unrolled.
 template <class Body, class Signature, int kForm>
