@@ -96,7 +96,7 @@ class Parser {
         if (kind == OperandKind::type) type = inst[at];
       });
       if (!fits) return error(inst, "it has too few or too many operands");
-      if (info->signature[0] == 'r' || info->signature[1] == 'r') {
+      if (info->signature[0] == 'r' || (info->signature[0] == 't' && info->signature[1] == 'r')) {
         if (result == 0 || result >= bound) return error(inst, "its result is not below the bound");
         if (m_.ids[result].word != 0) return error(inst, "its result is already defined");
         m_.ids[result] = {word, type};
