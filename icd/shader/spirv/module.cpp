@@ -29,8 +29,8 @@ std::string_view spirv_string(const uint32_t* words, uint32_t max_words) {
 
 std::string SpirvModule::name(uint32_t id) const {
   std::string text = "%" + std::to_string(id);
-  const auto at = std::lower_bound(names.begin(), names.end(), std::pair<uint32_t, uint32_t>{id, 0});
-  if (at == names.end() || at->first != id) return text;
+  const auto at = std::find_if(names.begin(), names.end(), [&](const auto& entry) { return entry.first == id; });
+  if (at == names.end()) return text;
   const SpirvInst inst = this->at(at->second);
   constexpr size_t kLongestName = 80;
   std::string given(spirv_string(inst.words + 2, inst.count - 2).substr(0, kLongestName));
@@ -47,8 +47,9 @@ Error SpirvModule::error(uint32_t word, const std::string& what) const {
   const SpirvInst inst = at(word);
   const SpirvOpInfo* info = find_spirv_op(static_cast<uint32_t>(inst.op));
   text += info != nullptr ? info->name : "opcode " + std::to_string(static_cast<uint32_t>(inst.op));
-  if (info != nullptr && info->signature[0] == 't' && inst.count > 2) text += " " + name(inst[2]);
-  if (info != nullptr && info->signature[0] == 'r' && inst.count > 1) text += " " + name(inst[1]);
+  const bool whole = info != nullptr && inst.count <= words.size() - word;
+  if (whole && info->signature[0] == 't' && info->signature[1] == 'r' && inst.count > 2) text += " " + name(inst[2]);
+  if (whole && info->signature[0] == 'r' && inst.count > 1) text += " " + name(inst[1]);
   text += " at word " + std::to_string(word);
   // The last OpLine before it that holds here.
   uint32_t line = 0;

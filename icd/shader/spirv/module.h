@@ -113,7 +113,7 @@ class SpirvModule {
   std::vector<SpirvEntryPoint> entry_points;
   std::vector<Mode> modes;
   std::vector<uint32_t> globals;  // words of constants, undefs and variables outside functions, in order
-  std::vector<std::pair<uint32_t, uint32_t>> names;  // id, word of OpName; sorted
+  std::vector<std::pair<uint32_t, uint32_t>> names;  // id, word of OpName
 };
 
 // Text of a literal string that starts at `words`.

@@ -69,7 +69,6 @@ class Parser {
     std::sort(m_.decorations.begin(), m_.decorations.end());
     if (Result<void> r = expand_groups(); !r) return r;
     std::sort(m_.decorations.begin(), m_.decorations.end());
-    std::sort(m_.names.begin(), m_.names.end());
     for (SpirvFunction& function : m_.functions) {
       if (Result<void> r = order_blocks(m_, function); !r) return r;
     }
