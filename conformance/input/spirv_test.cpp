@@ -121,7 +121,7 @@ TEST_F(BadShaders, WordCounts) {
 TEST_F(BadShaders, UnknownAndUnsupportedInstructionsAreNamed) {
   constexpr uint32_t kFMul = 133, kFAdd = 129, kConvertSToF = 111;
   expect_refused(with_opcode(kFMul, 0xFFF0), "an opcode that does not exist", "65520");
-  expect_refused(with_opcode(kFAdd, 5000), "an opcode that does not exist", "5000");
+  expect_refused(with_opcode(kFAdd, 5000), "an extension's opcode", "OpGroupIAddNonUniformAMD");
   // OpUConvert of a float, with a 16-bit type nowhere in sight: another kind of operand than the instruction takes.
   expect_refused(with_opcode(kConvertSToF, 113), "a conversion that does not fit its types", "OpUConvert");
 }
@@ -129,7 +129,7 @@ TEST_F(BadShaders, UnknownAndUnsupportedInstructionsAreNamed) {
 TEST_F(BadShaders, CapabilitiesThatAreNotThere) {
   // OpCapability is the first instruction: word 6 is the capability.
   for (const auto& [capability, name] :
-       {std::pair{2u, "Geometry"}, {3u, "Tessellation"}, {5u, "Vector16"}, {6u, "Kernel"}, {0x7FFFFFFFu, ""}}) {
+       {std::pair{2u, "Geometry"}, {3u, "Tessellation"}, {5u, "Linkage"}, {6u, "Kernel"}, {0x7FFFFFFFu, ""}}) {
     Words code = valid();
     ASSERT_EQ(code[5] & 0xFFFF, 17u);
     code[6] = capability;
