@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <memory>
 #include <new>
 
@@ -16,10 +17,18 @@ constexpr uint64_t kChunksPerWorker = 256;
 struct Worker {
   Execution execution;
   bool prepared = false;
+  uint64_t groups_done = 0;
 };
 
-bool expired(const ExecutionLimits* limits) {
-  return limits != nullptr && limits->expired.load(std::memory_order_relaxed);
+// Workgroups between two looks at the clock: a program without loops may be dispatched 2^48 times.
+constexpr uint64_t kGroupsPerClockRead = 256;
+
+bool expired(ExecutionLimits* limits, uint64_t groups_done) {
+  if (limits == nullptr) return false;
+  if (limits->expired.load(std::memory_order_relaxed)) return true;
+  if (groups_done % kGroupsPerClockRead != 0 || std::chrono::steady_clock::now() < limits->deadline) return false;
+  limits->expired.store(true, std::memory_order_relaxed);
+  return true;
 }
 
 void run_workgroup(Execution& execution, uint64_t number, const uint32_t groups[3], uint64_t invocations) {
@@ -60,7 +69,7 @@ bool dispatch(ThreadPool& pool, const ComputeProgram& program, const ResourceTab
     if (!worker.prepared) return;
     const uint64_t first = index * chunk;
     const uint64_t end = std::min(first + chunk, total);
-    for (uint64_t group = first; group < end && !expired(limits); ++group) {
+    for (uint64_t group = first; group < end && !expired(limits, ++worker.groups_done); ++group) {
       run_workgroup(worker.execution, group, groups, invocations);
     }
   });

@@ -1,5 +1,7 @@
 // Ops: interpolation, depth test, and the colours of the tile.
 // Specification: "Basic Polygon Rasterization" (barycentric coordinates), "Depth Test".
+#include <cstring>
+
 #include "base/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -15,84 +17,86 @@ namespace lapilli {
 namespace HWY_NAMESPACE {
 namespace {
 
-// Edge functions at all pixels of the batch, times 1/area2: λ1 and λ2, not rounded to float yet. The edge functions are
-// exact however they are summed, so that both ways give the same.
-struct Barycentrics {
-  alignas(64) double lambda[2][kLanes];
-};
+// The four lanes of a quad.
+typedef double QuadD __attribute__((vector_size(32)));
+typedef float QuadF __attribute__((vector_size(16)));
 
-void one_triangle_barycentrics(const FragmentBatch& batch, Barycentrics& out) {
-  alignas(64) int32_t x[kLanes];
-  alignas(64) int32_t y[kLanes];
-  for (int quad = 0; quad < kLanes / 4; ++quad) {
-    for (int lane = 0; lane < 4; ++lane) {
-      x[quad * 4 + lane] = batch.x[quad] + (lane & 1);
-      y[quad * 4 + lane] = batch.y[quad] + (lane >> 1);
-    }
-  }
-  const TriangleSetup& triangle = *batch.triangle[0];
-  const D inverse_area2 = broadcast(triangle.inverse_area2);
-  for (int edge = 1; edge < 3; ++edge) {
-    const D a = broadcast(triangle.edge_a[edge]);
-    const D b = broadcast(triangle.edge_b[edge]);
-    const D c = broadcast(triangle.edge_c[edge]);
-    for (int i = 0; i < kLanes; i += kVectorLanes) {
-      const D value = a * to_double(load<I>(x + i)) + b * to_double(load<I>(y + i)) + c;
-      store_d(value * inverse_area2, out.lambda[edge - 1] + i);
-    }
-  }
+// By reference: a vector of 256 bits is no argument or result of functions on all targets.
+HWY_INLINE void store_floats(const QuadD& value, float* lanes) {
+  const QuadF floats = __builtin_convertvector(value, QuadF);
+  std::memcpy(lanes, &floats, sizeof floats);
 }
 
-// Not inlined: g++ 12 drops the stores of the loop when it inlines this into the ops (RenderPass tests show it).
-HWY_NOINLINE void barycentrics(const FragmentBatch& batch, Barycentrics& out) {
-  if (batch.one_triangle) return one_triangle_barycentrics(batch, out);
-  for (int edge = 1; edge < 3; ++edge) {
-    double* lambda = out.lambda[edge - 1];
-    for (int quad = 0; quad < kLanes / 4; ++quad, lambda += 4) {
-      const TriangleSetup& triangle = *batch.triangle[quad];
-      const double a = triangle.edge_a[edge];
-      const double b = triangle.edge_b[edge];
-      const double corner = a * batch.x[quad] + b * batch.y[quad] + triangle.edge_c[edge];
-      lambda[0] = corner * triangle.inverse_area2;
-      lambda[1] = (corner + a) * triangle.inverse_area2;
-      lambda[2] = (corner + b) * triangle.inverse_area2;
-      lambda[3] = (corner + a + b) * triangle.inverse_area2;
-    }
+// An edge function of a triangle over its area. Exact however it is summed, but for the last product.
+struct Edge {
+  double a, b, c, inverse_area2;
+  QuadD steps;  // from a quad's first lane to all four
+
+  HWY_INLINE void load_from(const TriangleSetup& triangle, int edge) {
+    a = triangle.edge_a[edge];
+    b = triangle.edge_b[edge];
+    c = triangle.edge_c[edge];
+    inverse_area2 = triangle.inverse_area2;
+    steps = QuadD{0, a, b, a + b};
   }
+  // λ, not rounded to float yet.
+  HWY_INLINE void at(double x, double y, QuadD& lambda) const {
+    lambda = (steps + (a * x + b * y + c)) * inverse_area2;
+  }
+};
+
+HWY_INLINE void spread(float x, float* lanes) {
+  const QuadF quad = {x, x, x, x};
+  std::memcpy(lanes, &quad, sizeof quad);
 }
 
 struct op_frag_linear {
   static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
-    Barycentrics at;
-    barycentrics(*frame->fragments, at);
-    uint32_t* const d = reg_out(frame, op->dst);
-    for (int i = 0; i < kLanes; i += kVectorLanes) {
-      store(to_float(load_d(at.lambda[0] + i)), d + i);
-      store(to_float(load_d(at.lambda[1] + i)), d + kLanes + i);
+    const FragmentBatch& batch = *frame->fragments;
+    float* d = reinterpret_cast<float*>(reg(frame, op->dst));
+    const TriangleSetup* triangle = nullptr;
+    Edge edge1 = {}, edge2 = {};
+    for (int quad = 0; quad < kLanes / 4; ++quad, d += 4) {
+      if (batch.triangle[quad] != triangle) {
+        triangle = batch.triangle[quad];
+        edge1.load_from(*triangle, 1);
+        edge2.load_from(*triangle, 2);
+      }
+      QuadD l1, l2;
+      edge1.at(batch.x[quad], batch.y[quad], l1);
+      edge2.at(batch.x[quad], batch.y[quad], l2);
+      store_floats(l1, d);
+      store_floats(l2, d + kLanes);
     }
     return op + 1;
   }
 };
 
-// The value `get` gives of each quad's triangle, in all 64 lanes.
-template <class Get>
-void spread(const FragmentBatch& batch, uint32_t index, float* lanes) {
-  for (int quad = 0; quad < kLanes / 4; ++quad, lanes += 4) {
-    const float value = Get::of(*batch.triangle[quad], index);
-    lanes[0] = lanes[1] = lanes[2] = lanes[3] = value;
+struct op_frag_depth {
+  static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
+    const FragmentBatch& batch = *frame->fragments;
+    float* d = reinterpret_cast<float*>(reg(frame, op->dst));
+    const TriangleSetup* triangle = nullptr;
+    Edge edge1 = {}, edge2 = {};
+    for (int quad = 0; quad < kLanes / 4; ++quad, d += 4) {
+      if (batch.triangle[quad] != triangle) {
+        triangle = batch.triangle[quad];
+        edge1.load_from(*triangle, 1);
+        edge2.load_from(*triangle, 2);
+      }
+      QuadD l1, l2;
+      edge1.at(batch.x[quad], batch.y[quad], l1);
+      edge2.at(batch.x[quad], batch.y[quad], l2);
+      const QuadD z = l1 * triangle->z[1] + triangle->z[0] + l2 * triangle->z[2];
+      QuadF depth = __builtin_convertvector(z, QuadF);
+      const QuadF low = QuadF{} + triangle->min_depth;
+      const QuadF high = QuadF{} + triangle->max_depth;
+      depth = depth < low ? low : depth;
+      depth = depth > high ? high : depth;
+      std::memcpy(d, &depth, sizeof depth);
+    }
+    return op + 1;
   }
-}
-struct GetVarying {
-  static HWY_INLINE float of(const TriangleSetup& triangle, uint32_t index) { return triangle.varyings[index]; }
-};
-struct GetInverseW {
-  static HWY_INLINE float of(const TriangleSetup& triangle, uint32_t index) { return triangle.inverse_w[index]; }
-};
-struct GetMinDepth {
-  static HWY_INLINE float of(const TriangleSetup& triangle, uint32_t) { return triangle.min_depth; }
-};
-struct GetMaxDepth {
-  static HWY_INLINE float of(const TriangleSetup& triangle, uint32_t) { return triangle.max_depth; }
 };
 
 struct op_frag_perspective {
@@ -119,39 +123,11 @@ struct op_frag_perspective {
       return op + 1;
     }
     alignas(64) float w[3][kLanes];
-    for (uint32_t corner = 0; corner < 3; ++corner) spread<GetInverseW>(batch, corner, w[corner]);
+    for (int quad = 0; quad < kLanes / 4; ++quad) {
+      for (int corner = 0; corner < 3; ++corner) spread(batch.triangle[quad]->inverse_w[corner], w[corner] + quad * 4);
+    }
     for (int i = 0; i < kLanes; i += kVectorLanes) {
       vector(load<F>(a + i), load<F>(b + i), load<F>(w[0] + i), load<F>(w[1] + i), load<F>(w[2] + i), d + i);
-    }
-    return op + 1;
-  }
-};
-
-struct op_frag_depth {
-  static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
-    const FragmentBatch& batch = *frame->fragments;
-    Barycentrics at;
-    barycentrics(batch, at);
-    uint32_t* const d = reg_out(frame, op->dst);
-    if (batch.one_triangle) {
-      const TriangleSetup& triangle = *batch.triangle[0];
-      for (int i = 0; i < kLanes; i += kVectorLanes) {
-        const D z = broadcast(triangle.z[0]) + load_d(at.lambda[0] + i) * broadcast(triangle.z[1]) +
-                    load_d(at.lambda[1] + i) * broadcast(triangle.z[2]);
-        store(min(max(to_float(z), broadcast(triangle.min_depth)), broadcast(triangle.max_depth)), d + i);
-      }
-      return op + 1;
-    }
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const TriangleSetup& triangle = *batch.triangle[lane / 4];
-      at.lambda[0][lane] = triangle.z[0] + at.lambda[0][lane] * triangle.z[1] + at.lambda[1][lane] * triangle.z[2];
-    }
-    alignas(64) float limits[2][kLanes];
-    spread<GetMinDepth>(batch, 0, limits[0]);
-    spread<GetMaxDepth>(batch, 0, limits[1]);
-    for (int i = 0; i < kLanes; i += kVectorLanes) {
-      const F z = to_float(load_d(at.lambda[0] + i));
-      store(min(max(z, load<F>(limits[0] + i)), load<F>(limits[1] + i)), d + i);
     }
     return op + 1;
   }
@@ -177,7 +153,10 @@ struct op_interpolate {
     }
     for (uint32_t result = 0; result < op->c; ++result, d += kLanes) {
       alignas(64) float plane[3][kLanes];
-      for (uint32_t k = 0; k < 3; ++k) spread<GetVarying>(batch, (op->imm + result) * 3 + k, plane[k]);
+      for (int quad = 0; quad < kLanes / 4; ++quad) {
+        const float* const varying = batch.triangle[quad]->varyings + (op->imm + result) * 3;
+        for (int k = 0; k < 3; ++k) spread(varying[k], plane[k] + quad * 4);
+      }
       for (int i = 0; i < kLanes; i += kVectorLanes) {
         const F first = fma(load<F>(a + i), load<F>(plane[1] + i), load<F>(plane[0] + i));
         store(fma(load<F>(b + i), load<F>(plane[2] + i), first), d + i);
@@ -190,9 +169,11 @@ struct op_interpolate {
 struct op_interpolate_flat {
   static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
     const FragmentBatch& batch = *frame->fragments;
-    for (uint32_t result = 0; result < op->c; ++result) {
-      float* const d = reinterpret_cast<float*>(reg(frame, op->dst + result));
-      spread<GetVarying>(batch, (op->imm + result) * 3, d);
+    float* d = reinterpret_cast<float*>(reg(frame, op->dst));
+    for (uint32_t result = 0; result < op->c; ++result, d += kLanes) {
+      for (int quad = 0; quad < kLanes / 4; ++quad) {
+        spread(batch.triangle[quad]->varyings[(op->imm + result) * 3], d + quad * 4);
+      }
     }
     return op + 1;
   }

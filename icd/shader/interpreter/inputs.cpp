@@ -2,6 +2,7 @@
 // Specification: "Built-In Variables", "Vertex Input Address Calculation", "Derivative Operations".
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 #include "base/simd_targets.h"
 
@@ -31,26 +32,27 @@ U local_id(const Frame& frame, int i, uint32_t axis) {
   return divide(index, size_x * size_y);
 }
 
-// Vector i of the built-in.
-U fragment_builtin(const Frame& frame, BuiltIn which, int i) {
-  const FragmentBatch& batch = *frame.fragments;
-  alignas(64) uint32_t lanes[kVectorLanes];
-  for (int lane = 0; lane < kVectorLanes; ++lane) {
-    const size_t quad = static_cast<size_t>(i + lane) / 4;
-    if (which == BuiltIn::frag_coord_x) {
-      lanes[lane] = batch.x[quad] + (static_cast<uint32_t>(lane) & 1);
-    } else if (which == BuiltIn::frag_coord_y) {
-      lanes[lane] = batch.y[quad] + (static_cast<uint32_t>(lane) >> 1 & 1);
-    } else {
-      lanes[lane] = batch.triangle[quad]->front_facing;
-    }
+void fragment_builtin(const FragmentBatch& batch, BuiltIn which, std::byte* d) {
+  // The four lanes of a quad.
+  typedef float QuadF __attribute__((vector_size(16)));
+  typedef uint32_t QuadU __attribute__((vector_size(16)));
+  for (int quad = 0; quad < kLanes / 4; ++quad, d += 16) {
+    const float x = static_cast<float>(batch.x[quad]);
+    const float y = static_cast<float>(batch.y[quad]);
+    const QuadF columns = QuadF{x, x, x, x} + QuadF{0.5f, 1.5f, 0.5f, 1.5f};
+    const QuadF rows = QuadF{y, y, y, y} + QuadF{0.5f, 0.5f, 1.5f, 1.5f};
+    const uint32_t facing = batch.triangle[quad]->front_facing;
+    const QuadU facings = {facing, facing, facing, facing};
+    const void* const source = which == BuiltIn::frag_coord_x   ? static_cast<const void*>(&columns)
+                               : which == BuiltIn::frag_coord_y ? static_cast<const void*>(&rows)
+                                                                : static_cast<const void*>(&facings);
+    std::memcpy(d, source, 16);
   }
-  const U value = load<U>(lanes);
-  return which == BuiltIn::front_facing ? value : as_u(to_float(as_i(value)) + broadcast(0.5f));
 }
 
 uint32_t below(BuiltIn a, BuiltIn first) { return static_cast<uint32_t>(a) - static_cast<uint32_t>(first); }
 
+// Vector i of the others.
 U builtin_vector(const Frame& frame, BuiltIn which, int i) {
   switch (which) {
     case BuiltIn::vertex_index:
@@ -60,7 +62,7 @@ U builtin_vector(const Frame& frame, BuiltIn which, int i) {
     case BuiltIn::frag_coord_x:
     case BuiltIn::frag_coord_y:
     case BuiltIn::front_facing:
-      return fragment_builtin(frame, which, i);
+      break;  // by quads, in op_builtin
     case BuiltIn::local_invocation_x:
     case BuiltIn::local_invocation_y:
     case BuiltIn::local_invocation_z:
@@ -100,6 +102,10 @@ struct op_builtin {
   static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
     uint32_t* const d = reg_out(frame, op->dst);
     const BuiltIn which = static_cast<BuiltIn>(op->imm);
+    if (which == BuiltIn::frag_coord_x || which == BuiltIn::frag_coord_y || which == BuiltIn::front_facing) {
+      fragment_builtin(*frame->fragments, which, reg(frame, op->dst));
+      return op + 1;
+    }
     for (int i = 0; i < kLanes; i += kVectorLanes) store(builtin_vector(*frame, which, i), d + i);
     return op + 1;
   }

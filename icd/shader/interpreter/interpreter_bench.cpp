@@ -15,6 +15,7 @@
 
 #include "base/lanes-inl.h"
 #include "shader/interpreter/fragment_fixture.h"
+#include "shader/program.h"
 
 #undef BENCH_EACH
 #undef BENCH_PARAMETERS
@@ -246,6 +247,31 @@ void one_op(benchmark::State& state, SimdTarget target, Opcode op, Op operands, 
   state.counters["ns_per_op"] =
       benchmark::Counter(100e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
+
+// Passes, registers and handlers of a program of arithmetic with some inputs and outputs.
+void assemble_program(benchmark::State& state) {
+  std::mt19937 random(3);
+  Code code;
+  code.output_slots = 8;
+  std::vector<Reg> values;
+  for (uint32_t i = 0; i < 16; i += 4) {
+    const Reg first = code.emit_n(Opcode::load_push, 4, kNoReg, kNoReg, kNoReg, 0, 4 * i);
+    for (uint32_t k = 0; k < 4; ++k) values.push_back(first + k);
+  }
+  constexpr Opcode kOps[] = {Opcode::fadd, Opcode::fmul, Opcode::fsub, Opcode::fma, Opcode::fmin, Opcode::fsin};
+  const auto any = [&] { return values[values.size() - 1 - random() % 16]; };
+  while (code.instructions.size() < static_cast<size_t>(state.range(0))) {
+    const Opcode op = kOps[random() % std::size(kOps)];
+    values.push_back(code.emit(op, any(), op == Opcode::fsin ? kNoReg : any(), op == Opcode::fma ? any() : kNoReg));
+  }
+  for (uint32_t slot = 0; slot < 8; ++slot) code.emit_void(Opcode::store_output, any(), kNoReg, kNoReg, slot);
+  code.emit_void(Opcode::end);
+  for (auto _ : state) {
+    Result<ProgramPtr> program = assemble(code);
+    benchmark::DoNotOptimize(program);
+  }
+}
+BENCHMARK(assemble_program)->Arg(200)->Arg(2000);
 
 void add_op(SimdTarget target, const std::string& name, Opcode op, Op operands, bool one_triangle = true) {
   const std::string full = std::string("op/") + simd_target_name(target) + '/' + name;
