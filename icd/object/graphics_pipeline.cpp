@@ -154,6 +154,7 @@ Result<void> find_stages(Stages& stages, const Info& info, bool rasterizer_disca
 struct Targets {
   std::vector<VkFormat> formats;
   std::vector<VkPipelineColorBlendAttachmentState> blend;
+  VkFormat depth_format = VK_FORMAT_UNDEFINED;  // if the depth test is on
 };
 Result<Targets> find_targets(GraphicsState& state, const Info& info, bool rasterizer_discard) {
   const RenderPass& pass = *RenderPass::from(info.renderPass);
@@ -177,6 +178,7 @@ Result<Targets> find_targets(GraphicsState& state, const Info& info, bool raster
     state.depth_test = depth->depthTestEnable != VK_FALSE;
     state.depth_write = state.depth_test && depth->depthWriteEnable != VK_FALSE;
     state.depth_compare = depth->depthCompareOp;
+    if (state.depth_test) targets.depth_format = pass.format_of(subpass.depth);
   }
   return targets;
 }
@@ -197,6 +199,8 @@ Result<void> build(GraphicsPart& part, const Info& info) {
   GraphicsState state;
   Result<Targets> targets = find_targets(state, info, part.rasterizer_discard);
   if (!targets) return targets.error();
+  std::copy(targets->formats.begin(), targets->formats.end(), part.color_formats.begin());
+  part.depth_format = targets->depth_format;
   state.attributes = *attributes;
   state.color_formats = targets->formats;
   state.blend = targets->blend;

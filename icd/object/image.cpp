@@ -56,6 +56,11 @@ VkResult create_image_view(DeviceContext& device, const VkImageViewCreateInfo& i
     log_error("vkCreateImageView: no memory is bound to the image");
     return VK_ERROR_UNKNOWN;
   }
+  const VkFormatProperties features = format_properties(info.format);
+  if ((features.optimalTilingFeatures | features.linearTilingFeatures) == 0) {
+    log_error("vkCreateImageView: format %d is not supported for images", info.format);
+    return VK_ERROR_UNKNOWN;
+  }
   Result<TextureView> texture =
       make_view(image.layout, image.data, info.format, info.components, info.subresourceRange);
   if (!texture) {

@@ -1,6 +1,8 @@
 // VkPipeline: the programs and the state that goes with them. Specification: chapter "Pipelines".
 #pragma once
 
+#include <array>
+
 #include "object/descriptor_layout.h"
 #include "object/render_pass.h"
 #include "object/shader_module.h"
@@ -39,6 +41,9 @@ struct GraphicsPart {
   bool depth_bias = false;
   VkCullModeFlags cull_mode = VK_CULL_MODE_NONE;
   VkFrontFace front_face = VK_FRONT_FACE_COUNTER_CLOCKWISE;
+  // Attachments that the programs write; VK_FORMAT_UNDEFINED: none. A subpass with others is not drawn to.
+  std::array<VkFormat, kMaxColorAttachments> color_formats = {};
+  VkFormat depth_format = VK_FORMAT_UNDEFINED;
   DynamicState fixed;
   uint32_t dynamic = 0;  // DynamicStateBit: taken from the command buffer instead of `fixed`
 };

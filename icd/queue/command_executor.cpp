@@ -108,6 +108,7 @@ CommandExecutor::CommandExecutor(DeviceContext& owner, ThreadPool& workers)
 
 VkResult CommandExecutor::run(const CommandBuffer& buffer) {
   state = {};
+  samples_passed = nullptr;
   result = VK_SUCCESS;
   execute_commands(*this, buffer);
   labels.clear();

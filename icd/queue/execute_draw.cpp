@@ -2,6 +2,7 @@
 // Specification: chapters "Drawing Commands", "Dispatching Commands".
 #include <cstring>
 
+#include "base/log.h"
 #include "object/limits.h"
 #include "queue/command_executor.h"
 #include "shader/compute.h"
@@ -9,12 +10,26 @@
 namespace lapilli {
 namespace {
 
+// Whether the subpass has the attachments that the pipeline's programs write: memory is at stake, not only validity.
+bool fits_subpass(const GraphicsPart& pipeline, const PassState& pass) {
+  const Subpass& subpass = pass.pass->subpasses[pass.subpass];
+  for (size_t i = 0; i < pipeline.color_formats.size(); ++i) {
+    if (pipeline.color_formats[i] == VK_FORMAT_UNDEFINED) continue;
+    if (i >= subpass.color.size() || pass.pass->format_of(subpass.color[i]) != pipeline.color_formats[i]) return false;
+  }
+  return pipeline.depth_format == VK_FORMAT_UNDEFINED || pass.pass->format_of(subpass.depth) == pipeline.depth_format;
+}
+
 // The draw with everything bound, its counts still to be filled in; null if it can have no effect.
 DrawCall* add_draw(CommandExecutor& executor, uint32_t count, uint32_t instances) {
   const Pipeline* pipeline = executor.state.graphics.pipeline;
   if (executor.pass.pass == nullptr || pipeline == nullptr || count == 0 || instances == 0) return nullptr;
   // No shader stores (the feature vertexPipelineStoresAndAtomics is not offered), so that nothing is left to do.
   if (pipeline->graphics.rasterizer_discard) return nullptr;
+  if (!fits_subpass(pipeline->graphics, executor.pass)) {
+    log_error("a draw with a pipeline for other attachments than the subpass has");
+    return nullptr;
+  }
   DrawCall& draw = executor.pass.draws.emplace_back();
   if (!flatten_draw(executor.state, executor.arena, draw)) {
     executor.fail(VK_ERROR_OUT_OF_HOST_MEMORY, "out of memory for a draw");

@@ -43,6 +43,16 @@ void load_directly(PassState& pass, uint32_t attachment, uint32_t first_layer) {
                   clear_value(pass, attachment));
 }
 
+// Also of a framebuffer made for another render pass: then it has to have the same attachments.
+bool fits(const RenderPass& pass, const Framebuffer& framebuffer) {
+  if (pass.attachments.size() != framebuffer.attachments.size()) return false;
+  for (size_t i = 0; i < pass.attachments.size(); ++i) {
+    const ImageView& view = *framebuffer.attachments[i];
+    if (view.format->format != pass.attachments[i].format || view.image->data == nullptr) return false;
+  }
+  return true;
+}
+
 void begin_subpass(PassState& pass) {
   const Subpass& subpass = pass.pass->subpasses[pass.subpass];
   for (uint32_t attachment : subpass.color) load_directly(pass, attachment, 1);
@@ -104,6 +114,8 @@ void flush_pass(CommandExecutor& executor, bool end_of_subpass) {
 
 void execute(CommandExecutor& executor, const cmd::BeginRenderPass& command) {
   PassState& pass = executor.pass;
+  pass.pass = nullptr;
+  if (!fits(*command.pass, *command.framebuffer)) return log_error("the framebuffer does not fit the render pass");
   pass.pass = command.pass;
   pass.framebuffer = command.framebuffer;
   pass.area = clip(command.area, *command.framebuffer);
