@@ -130,6 +130,14 @@ std::optional<uint32_t> Lowering::constant_bits(Reg reg) const {
   return code_.registers[reg].bits;
 }
 
+Reg Lowering::constant(uint32_t bits) {
+  const size_t before = code_.registers.size();
+  const Reg reg = code_.constant(bits);
+  constant_registers_ += code_.registers.size() - before;
+  if (constant_registers_ > kMaxConstantRegisters) fail("the program has too many constants");
+  return reg;
+}
+
 Reg Lowering::emit(Opcode op, Reg a, Reg b, Reg c) {
   const std::optional<uint32_t> x = constant_bits(a), y = constant_bits(b);
   const bool conjunction = op == Opcode::iand;

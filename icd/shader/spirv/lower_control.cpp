@@ -309,8 +309,9 @@ void Lowering::copy_to_phis(uint32_t target, Reg condition, bool negate) {
       bind(inst[2], regs);
     }
     const std::span<const Reg> variables = data(inst[2], count);
+    const uint32_t from = function.blocks[frame_->block].label;
     for (uint32_t i = 3; i + 1 < inst.count; i += 2) {
-      if (function.block_of(inst[i + 1]) != frame_->block) continue;
+      if (inst[i + 1] != from) continue;
       const std::span<const Reg> values = data(inst[i], count);
       if (state.edges == 0) state.phis.emplace_back(inst[2], values);
       for (size_t c = 0; c < count; ++c) {

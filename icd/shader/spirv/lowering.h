@@ -2,6 +2,7 @@
 // Errors stick: the first one is kept, what follows works on registers that exist, and lower_shader returns the error.
 #pragma once
 
+#include <bit>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -20,6 +21,7 @@ constexpr uint32_t kMaxValueComponents = 16384;     // of one value
 constexpr uint32_t kMaxVariableComponents = 16384;  // of one variable in registers
 constexpr uint32_t kMaxInstructions = 1 << 20;  // of a program; and registers, and SPIR-V instructions after inlining
 constexpr uint32_t kMaxRegisters = 1 << 21;
+constexpr size_t kMaxConstantRegisters = 1 << 15;
 constexpr size_t kMaxOperandPool = 1 << 24;
 
 enum class Kind : uint8_t {
@@ -115,8 +117,8 @@ class Lowering {
   std::optional<uint32_t> constant_bits(Reg reg) const;
   // Folds logic with constants, so that branches over specialization constants are decided here.
   Reg emit(Opcode op, Reg a = kNoReg, Reg b = kNoReg, Reg c = kNoReg);
-  Reg constant(uint32_t bits) { return code_.constant(bits); }
-  Reg constant_f(float value) { return code_.constant_f(value); }
+  Reg constant(uint32_t bits);
+  Reg constant_f(float value) { return constant(std::bit_cast<uint32_t>(value)); }
   void lower_instruction(const SpirvInst& inst);
   void lower_body_instruction(const SpirvInst& inst);
   void lower_composite(const SpirvInst& inst);
@@ -253,7 +255,7 @@ class Lowering {
 
   std::unordered_map<uint32_t, Type> types_;
   std::unordered_map<uint32_t, std::vector<uint32_t>> constants_;
-  size_t constant_words_ = 0;
+  size_t constant_words_ = 0, constant_registers_ = 0;
   std::vector<uint32_t> value_of_;  // id -> index into values_, 0: none
   std::deque<Value> values_;
   std::deque<Variable> variables_;
