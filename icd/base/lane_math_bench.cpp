@@ -14,13 +14,11 @@
 
 #ifndef LAPILLI_BASE_LANE_MATH_BENCH_ONCE
 #define LAPILLI_BASE_LANE_MATH_BENCH_ONCE
-#define LAPILLI_UNARY(X)                                                                                           \
-  X(sin)                                                                                                           \
-  X(cos)                                                                                                           \
-  X(tan)                                                                                                           \
-  X(asin)                                                                                                          \
-  X(acos) X(atan) X(exp) X(exp2) X(log) X(log2) X(sinh) X(tanh) X(asinh) X(atanh) X(inverse_sqrt) X(sqrt) X(floor) \
-      X(fract)
+// clang-format off
+#define LAPILLI_UNARY(X)                                                                        \
+  X(sin) X(cos) X(tan) X(asin) X(acos) X(atan) X(sinh) X(tanh) X(asinh) X(atanh)                \
+  X(exp) X(exp2) X(log) X(log2) X(inverse_sqrt) X(sqrt) X(floor) X(fract)
+// clang-format on
 #define LAPILLI_BINARY(X) X(pow) X(atan2) X(frem) X(fmod) X(min)
 namespace lapilli {
 using Run = void(const float* x, const float* y, float* result, std::size_t count);

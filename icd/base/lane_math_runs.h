@@ -12,14 +12,11 @@ namespace lapilli {
 using UnaryRun = void(const float* x, float* result, std::size_t count);
 using BinaryRun = void(const float* x, const float* y, float* result, std::size_t count);
 
-#define LAPILLI_UNARY_MATH(X)                                                                                      \
-  X(sin)                                                                                                           \
-  X(cos)                                                                                                           \
-  X(tan)                                                                                                           \
-  X(asin)                                                                                                          \
-  X(acos)                                                                                                          \
-  X(atan) X(exp) X(exp2) X(log) X(log2) X(sinh) X(cosh) X(tanh) X(asinh) X(acosh) X(atanh) X(inverse_sqrt) X(sqrt) \
-      X(fract) X(trunc) X(floor) X(ceil) X(round_even)
+// clang-format off
+#define LAPILLI_UNARY_MATH(X)                                                                   \
+  X(sin) X(cos) X(tan) X(asin) X(acos) X(atan) X(sinh) X(cosh) X(tanh) X(asinh) X(acosh) X(atanh) \
+  X(exp) X(exp2) X(log) X(log2) X(inverse_sqrt) X(sqrt) X(fract) X(trunc) X(floor) X(ceil) X(round_even)
+// clang-format on
 #define LAPILLI_BINARY_MATH(X) X(pow) X(atan2) X(frem) X(fmod) X(min) X(max) X(nmin) X(nmax)
 
 struct MathRuns {
