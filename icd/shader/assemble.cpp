@@ -111,7 +111,8 @@ void ProgramDeleter::operator()(Program* program) const { delete program; }
 
 Result<ProgramPtr> assemble(Code code) {
   static std::atomic<uint64_t> next_id{1};
-  assert(verify(code).empty());
+  // What the reader made of SPIR-V that it should have refused must not run.
+  if (const std::string defect = verify(code); !defect.empty()) return Error{VK_ERROR_UNKNOWN, "internal: " + defect};
   ProgramPtr program(new Program);
   program->id = next_id.fetch_add(1, std::memory_order_relaxed);
   program->target = simd_target();

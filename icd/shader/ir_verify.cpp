@@ -110,38 +110,42 @@ class Verifier {
 
   bool check_operand(const OpInfo& info, char letter, Reg reg) {
     const bool required = std::strchr(info.operands, letter) != nullptr;
+    if (reg == kNoReg) return required ? fail_operand(letter, "is missing") : true;
     const bool allowed = required || std::strchr(info.operands, letter - 'a' + 'A') != nullptr;
-    const std::string name = std::string("operand ") + letter;
-    if (reg == kNoReg) return required ? fail_here(name + " is missing") : true;
-    if (!allowed) return fail_here(name + " is not used by this op");
-    return check_use(name, reg);
+    return allowed ? check_use(letter, reg) : fail_operand(letter, "is not used by this op");
   }
 
-  bool check_use(const std::string& name, Reg reg) {
-    if (reg >= code_.registers.size()) return fail_here(name + " is no register");
+  // `which`: a, b, c, or a digit for the place in the operand list.
+  bool fail_operand(char which, const char* what) {
+    const bool listed = which >= '0' && which <= '9';
+    return fail_here((listed ? "list operand " : "operand ") + std::string(1, which) + ' ' + what);
+  }
+
+  bool check_use(char which, Reg reg) {
+    if (reg >= code_.registers.size()) return fail_operand(which, "is no register");
     if (code_.registers[reg].kind != RegKind::value) return true;
-    if (definition_[reg] == kUndefined) return fail_here(name + " is used before its definition");
+    if (definition_[reg] == kUndefined) return fail_operand(which, "is used before its definition");
     // Lanes that left the loop earlier would see what later iterations computed.
     const uint32_t loop = innermost_[definition_[reg]];
-    if (loop != kNoLoop && at_ > loops_[loop].last)
-      return fail_here(name + " was defined in a loop that has ended; it needs a masked copy");
-    return true;
+    if (loop == kNoLoop || at_ <= loops_[loop].last) return true;
+    return fail_operand(which, "was defined in a loop that has ended; it needs a masked copy");
   }
 
   bool check_list(const OpInfo& info, const Instruction& instruction) {
     const bool has_list = std::strchr(info.operands, 'l') != nullptr;
     if (!has_list) return instruction.list_count == 0 ? true : fail_here("takes no operand list");
-    if (uint64_t{instruction.list_first} + instruction.list_count > code_.operand_list.size())
+    if (uint64_t{instruction.list_first} + instruction.list_count > code_.operand_list.size()) {
       return fail_here("list outside the operand list");
+    }
     const bool color = instruction.op == Opcode::store_color;
     const uint32_t count = color ? 4 : instruction.op == Opcode::size_2d ? 3 : 5;
     if (instruction.list_count != count) return fail_here("wrong length of the operand list");
     for (uint32_t i = 0; i < count; ++i) {
       const Reg reg = code_.operand_list[instruction.list_first + i];
-      const bool optional = color ? (instruction.imm2 >> i & 1) == 0 : i < 2;
-      const std::string name = "list operand " + std::to_string(i);
-      if (reg == kNoReg && !optional) return fail_here(name + " is missing");
-      if (reg != kNoReg && !check_use(name, reg)) return false;
+      const bool optional = color ? (instruction.imm2 >> i & 1) == 0 : i < 2 || i == 4;
+      const char which = static_cast<char>('0' + i);
+      if (reg == kNoReg && !optional) return fail_operand(which, "is missing");
+      if (reg != kNoReg && !check_use(which, reg)) return false;
     }
     return true;
   }
