@@ -133,6 +133,9 @@ struct op_frag_perspective {
   }
 };
 
+// verify() lets no instruction have more.
+constexpr uint32_t kMostResults = 16;
+
 struct op_interpolate {
   static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
     const FragmentBatch& batch = *frame->fragments;
@@ -151,15 +154,19 @@ struct op_interpolate {
       }
       return op + 1;
     }
-    for (uint32_t result = 0; result < op->c; ++result, d += kLanes) {
-      alignas(64) float plane[3][kLanes];
-      for (int quad = 0; quad < kLanes / 4; ++quad) {
-        const float* const varying = batch.triangle[quad]->varyings + (op->imm + result) * 3;
-        for (int k = 0; k < 3; ++k) spread(varying[k], plane[k] + quad * 4);
-      }
+    // All coefficients first: what was just stored in small pieces is slow to load in large ones.
+    const uint32_t count = op->c;
+    alignas(64) float planes[3 * kMostResults][kLanes];
+    for (int quad = 0; quad < kLanes / 4; ++quad) {
+      const float* const varyings = batch.triangle[quad]->varyings + op->imm * 3;
+      for (uint32_t k = 0; k < 3 * count; ++k) spread(varyings[k], planes[k] + quad * 4);
+    }
+    for (uint32_t result = 0; result < count; ++result, d += kLanes) {
+      const float* const a0 = planes[3 * result];
+      const float* const d1 = planes[3 * result + 1];
+      const float* const d2 = planes[3 * result + 2];
       for (int i = 0; i < kLanes; i += kVectorLanes) {
-        const F first = fma(load<F>(a + i), load<F>(plane[1] + i), load<F>(plane[0] + i));
-        store(fma(load<F>(b + i), load<F>(plane[2] + i), first), d + i);
+        store(fma(load<F>(b + i), load<F>(d2 + i), fma(load<F>(a + i), load<F>(d1 + i), load<F>(a0 + i))), d + i);
       }
     }
     return op + 1;
@@ -171,9 +178,13 @@ struct op_interpolate_flat {
     const FragmentBatch& batch = *frame->fragments;
     float* d = reinterpret_cast<float*>(reg(frame, op->dst));
     for (uint32_t result = 0; result < op->c; ++result, d += kLanes) {
-      for (int quad = 0; quad < kLanes / 4; ++quad) {
-        spread(batch.triangle[quad]->varyings[(op->imm + result) * 3], d + quad * 4);
+      const uint32_t index = (op->imm + result) * 3;
+      if (batch.one_triangle) {
+        const F value = broadcast(batch.triangle[0]->varyings[index]);
+        for (int i = 0; i < kLanes; i += kVectorLanes) store(value, d + i);
+        continue;
       }
+      for (int quad = 0; quad < kLanes / 4; ++quad) spread(batch.triangle[quad]->varyings[index], d + quad * 4);
     }
     return op + 1;
   }

@@ -244,8 +244,8 @@ void one_op(benchmark::State& state, SimdTarget target, Opcode op, Op operands, 
     run(ops.data(), &frame);
     frame.exec = frame.write = ~uint64_t{0};
   }
-  state.counters["ns_per_op"] =
-      benchmark::Counter(100e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["time_per_op"] =
+      benchmark::Counter(100, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 // Passes, registers and handlers of a program of arithmetic with some inputs and outputs.
