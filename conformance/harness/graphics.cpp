@@ -94,6 +94,7 @@ VkResult try_create_pipeline(const Context& context, const PipelineState& s, VkP
   info.pDynamicState = &dynamic;
   info.layout = s.layout;
   info.renderPass = s.render_pass;
+  info.subpass = s.subpass;
   return vkCreateGraphicsPipelines(context.device(), VK_NULL_HANDLE, 1, &info, allocator, pipeline);
 }
 

@@ -39,6 +39,7 @@ struct PipelineState {
   const VkSpecializationInfo* specialization = nullptr;
   VkPipelineLayout layout = VK_NULL_HANDLE;
   VkRenderPass render_pass = VK_NULL_HANDLE;
+  uint32_t subpass = 0;
 };
 
 // Without check(): for tests that expect an error.
