@@ -26,6 +26,15 @@ void add_binding(DescriptorSetLayout& layout, const VkDescriptorSetLayoutBinding
   layout.bindings.push_back(binding);
 }
 
+// Far above maxDescriptorSet…; keeps sums of counts inside 32 bits.
+constexpr uint64_t kMaxSetDescriptors = 1u << 20;
+
+uint64_t total_descriptors(const VkDescriptorSetLayoutCreateInfo& info) {
+  uint64_t total = 0;
+  for (uint32_t i = 0; i < info.bindingCount; ++i) total += info.pBindings[i].descriptorCount;
+  return total;
+}
+
 void place_bindings(DescriptorSetLayout& layout) {
   std::sort(layout.bindings.begin(), layout.bindings.end(),
             [](const LayoutBinding& a, const LayoutBinding& b) { return a.binding < b.binding; });
@@ -52,6 +61,11 @@ const LayoutBinding* DescriptorSetLayout::find(uint32_t binding) const {
 
 VkResult create_descriptor_set_layout(DeviceContext& device, const VkDescriptorSetLayoutCreateInfo& info,
                                       const VkAllocationCallbacks* callbacks, VkDescriptorSetLayout* handle) {
+  if (total_descriptors(info) > kMaxSetDescriptors) {
+    log_error("vkCreateDescriptorSetLayout: more than %llu descriptors",
+              static_cast<unsigned long long>(kMaxSetDescriptors));
+    return VK_ERROR_OUT_OF_HOST_MEMORY;
+  }
   auto layout = make_object<DescriptorSetLayout>(device.object_memory(callbacks), VK_SYSTEM_ALLOCATION_SCOPE_OBJECT);
   for (uint32_t i = 0; i < info.bindingCount; ++i) add_binding(*layout, info.pBindings[i]);
   place_bindings(*layout);

@@ -76,6 +76,16 @@ TEST_F(Descriptors, LieInOrderOfTheirBindingNumbers) {
   EXPECT_EQ(set_layout->find(1), nullptr);
 }
 
+TEST_F(Descriptors, CountsThatWouldOverflowAreRefused) {
+  const VkDescriptorSetLayoutBinding bindings[] = {{0, kUniform, 1u << 31, VK_SHADER_STAGE_ALL, nullptr},
+                                                   {1, kUniform, 1u << 31, VK_SHADER_STAGE_ALL, nullptr}};
+  VkDescriptorSetLayoutCreateInfo info = {};
+  info.bindingCount = 2;
+  info.pBindings = bindings;
+  VkDescriptorSetLayout handle = VK_NULL_HANDLE;
+  EXPECT_EQ(create_descriptor_set_layout(device, info, nullptr, &handle), VK_ERROR_OUT_OF_HOST_MEMORY);
+}
+
 TEST_F(Descriptors, DynamicOffsetsAreCountedThroughTheSetsOfAPipelineLayout) {
   const VkDescriptorSetLayoutBinding bindings[] = {{0, kDynamic, 2, VK_SHADER_STAGE_ALL, nullptr},
                                                    {1, kUniform, 1, VK_SHADER_STAGE_ALL, nullptr}};

@@ -67,6 +67,7 @@ VkResult create_render_pass(DeviceContext& device, const VkRenderPassCreateInfo&
                             const VkAllocationCallbacks* callbacks, VkRenderPass* handle) {
   auto pass = make_object<RenderPass>(device.object_memory(callbacks), VK_SYSTEM_ALLOCATION_SCOPE_OBJECT);
   if (info.attachmentCount > kMaxFramebufferAttachments) return refuse("too many attachments");
+  if (info.subpassCount == 0) return refuse("there is no subpass");
   for (uint32_t i = 0; i < info.attachmentCount; ++i) {
     if (const VkResult bad = check_attachment(info.pAttachments[i]); bad != VK_SUCCESS) return bad;
     pass->attachments.push_back(info.pAttachments[i]);
