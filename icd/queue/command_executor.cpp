@@ -108,6 +108,7 @@ CommandExecutor::CommandExecutor(DeviceContext& owner, ThreadPool& workers)
 
 VkResult CommandExecutor::run(const CommandBuffer& buffer) {
   state = {};
+  pass.pass = nullptr;  // a buffer that left one open must not lend its objects to the next
   samples_passed = nullptr;
   result = VK_SUCCESS;
   execute_commands(*this, buffer);
