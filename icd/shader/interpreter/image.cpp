@@ -23,12 +23,13 @@ const uint32_t* list_operand(const Op* op, Frame* frame, uint32_t i) {
   return number == kNoOperand ? nullptr : reg_u(frame, number);
 }
 
-// Calls Body::run for each set of lanes that have the same descriptors.
+// Calls Body::run for each set of lanes that have the same descriptors; the other lanes become 0.
 template <class Body>
 struct ForEachImage {
   static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
     const uint32_t* const texture = list_operand(op, frame, 0);
     const uint32_t* const sampler = list_operand(op, frame, 1);
+    clear_idle_lanes(frame, op->dst, Body::kResults);
     if (texture == nullptr && sampler == nullptr) {
       Body::run(op, frame, descriptor_at(*frame, op->imm, 0), descriptor_at(*frame, op->imm2, 0), frame->exec);
       return op + 1;
@@ -63,6 +64,7 @@ struct Results {
 
 template <bool kDerivatives>
 struct Sample {
+  static constexpr uint32_t kResults = 4;
   static void run(const Op* op, Frame* frame, const Descriptor& texture, const Descriptor& sampler, uint64_t lanes) {
     SampleOperands operands;
     operands.u = reinterpret_cast<const float*>(list_operand(op, frame, 2));
@@ -75,6 +77,7 @@ struct Sample {
 };
 
 struct Fetch {
+  static constexpr uint32_t kResults = 4;
   static void run(const Op* op, Frame* frame, const Descriptor& texture, const Descriptor&, uint64_t lanes) {
     FetchOperands operands;
     operands.x = reinterpret_cast<const int32_t*>(list_operand(op, frame, 2));
@@ -86,6 +89,7 @@ struct Fetch {
 };
 
 struct Size {
+  static constexpr uint32_t kResults = 2;
   static void run(const Op* op, Frame* frame, const Descriptor& texture, const Descriptor&, uint64_t lanes) {
     const int32_t* const level = reinterpret_cast<const int32_t*>(list_operand(op, frame, 2));
     int32_t* const d = reinterpret_cast<int32_t*>(reg(frame, op->dst));

@@ -13,6 +13,8 @@
 #define LAPILLI_SHADER_MACHINE_INL_H
 #endif
 
+#include <cstring>
+
 #include "base/lanes-inl.h"
 #include "shader/interpreter/op.h"
 
@@ -49,6 +51,13 @@ HWY_INLINE const uint32_t* reg_u(Frame* frame, uint32_t index) {
   return reinterpret_cast<const uint32_t*>(reg(frame, index));
 }
 HWY_INLINE uint32_t* reg_out(Frame* frame, uint32_t index) { return reinterpret_cast<uint32_t*>(reg(frame, index)); }
+
+// Ops that work on the lanes of exec alone begin with this: what a batch before left in the other lanes may not be
+// seen, for derivatives and implicit levels of detail read them.
+HWY_INLINE void clear_idle_lanes(Frame* frame, uint32_t first, uint32_t count) {
+  if (frame->exec == ~uint64_t{0}) return;
+  std::memset(reg_out(frame, first), 0, count * kRegisterBytes);
+}
 
 template <class V, class W>
 struct As;

@@ -117,6 +117,7 @@ struct op_load_buffer {
     const uint32_t* const addresses = reg_u(frame, op->a);
     uint32_t* const d = reg_out(frame, op->dst);
     uint64_t rest = frame->exec;
+    clear_idle_lanes(frame, op->dst, op->c);
     if (rest == 0) return op + 1;
     if (op->b == kNoOperand) {
       load_words(frame->buffers[op->imm], addresses, op->imm2, op->c, rest, d);
@@ -177,6 +178,7 @@ struct op_load_push_indexed {
   static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
     const uint32_t* const addresses = reg_u(frame, op->a);
     uint32_t* const d = reg_out(frame, op->dst);
+    clear_idle_lanes(frame, op->dst, op->c);
     // Read only.
     const BufferRange push = {const_cast<std::byte*>(frame->resources->push_constants), kMaxPushConstantBytes};
     if (frame->exec != 0) load_words(push, addresses, op->imm2, op->c, frame->exec, d);
