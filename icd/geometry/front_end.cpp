@@ -35,10 +35,16 @@ void FrontEnd::begin(std::span<const DrawCall> draws, const TileGrid& grid, cons
   enter_draw();
 }
 
+// Moves on to the next draw with a triangle in it: one without may still have 2^32 instances.
 void FrontEnd::enter_draw() {
-  while (draw_ < draws_.size() && draws_nothing(draws_[draw_])) ++draw_;
   instance_ = run_ = triangle_ = 0;
-  if (draw_ < draws_.size()) split_runs(draws_[draw_], runs_);
+  for (; draw_ < draws_.size(); ++draw_) {
+    const DrawCall& draw = draws_[draw_];
+    if (draws_nothing(draw)) continue;
+    split_runs(draw, runs_);
+    const auto has_triangle = [&](const VertexRun& run) { return triangle_count(draw.raster.topology, run.count) > 0; };
+    if (std::any_of(runs_.begin(), runs_.end(), has_triangle)) return;
+  }
 }
 
 // The next up to `most` triangles; false at the end of the pass.
@@ -48,7 +54,7 @@ bool FrontEnd::take_triangles(uint32_t most, WorkItem& item) {
       run_ = 0;
       ++instance_;
     }
-    if (runs_.empty() || instance_ >= draws_[draw_].instance_count) {
+    if (instance_ >= draws_[draw_].instance_count) {
       ++draw_;
       enter_draw();
       continue;

@@ -74,6 +74,7 @@ struct Pass {
   VkRect2D area;
   std::vector<std::vector<Vertex>> vertices;  // per draw
   uint64_t samples = 0;
+  uint32_t instances = 1;
 
   Pass(uint32_t w, uint32_t h, unsigned threads, bool with_depth, bool accumulate)
       : pool(threads), renderer(pool), width(w), height(h), color(size_t{w} * h * 4, 0.0f), depth(size_t{w} * h, 1.0f) {
@@ -99,6 +100,7 @@ struct Pass {
       draws[i].bindings[0] = {reinterpret_cast<const std::byte*>(vertices[i].data()),
                               vertices[i].size() * sizeof(Vertex), sizeof(Vertex), false};
       draws[i].count = static_cast<uint32_t>(vertices[i].size());
+      draws[i].instance_count = instances;
       draws[i].viewport = {0, 0, static_cast<float>(width), static_cast<float>(height), 0, 1};
       draws[i].scissor = {{0, 0}, {width, height}};
       draws[i].samples_passed = &samples;
@@ -217,6 +219,16 @@ TEST(RenderPass, ManySetsOfBins) {
     ASSERT_EQ(pass.color[i * 4], 1.0f + static_cast<float>(layers));
   }
   EXPECT_EQ(pass.samples, static_cast<uint64_t>(kRectangles));
+}
+
+// Two vertices make no triangle, however many instances there are.
+TEST(RenderPass, DrawsWithoutATriangleCostNothing) {
+  Pass pass(8, 8, 1, false, false);
+  pass.vertices.resize(1);
+  pass.vertices[0].resize(2);
+  pass.instances = UINT32_MAX;
+  ASSERT_EQ(pass.run(), VK_SUCCESS);
+  EXPECT_EQ(pass.samples, 0u);
 }
 
 TEST(RenderPass, SameBitsWithAnyNumberOfThreads) {
