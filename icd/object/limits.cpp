@@ -19,7 +19,7 @@ void set_image_limits(VkPhysicalDeviceLimits& limits) {
   limits.maxImageDimension3D = kMaxImageDimension3D;
   limits.maxImageDimensionCube = kMaxImageDimension2D;
   limits.maxImageArrayLayers = kMaxImageLayers;
-  limits.maxTexelBufferElements = 1u << 27;
+  limits.maxTexelBufferElements = 65536;  // the least there may be: no texel buffers yet
   limits.bufferImageGranularity = 1;
   limits.sparseAddressSpaceSize = 0;
   limits.maxSamplerAllocationCount = kMaxSamplers;
@@ -43,7 +43,7 @@ void set_descriptor_limits(VkPhysicalDeviceLimits& limits) {
   limits.maxPerStageDescriptorUniformBuffers = kMaxDescriptors;
   limits.maxPerStageDescriptorStorageBuffers = kMaxDescriptors;
   limits.maxPerStageDescriptorSampledImages = kMaxDescriptors;
-  limits.maxPerStageDescriptorStorageImages = kMaxDescriptors;
+  limits.maxPerStageDescriptorStorageImages = 4;  // the least there may be: no storage images yet
   limits.maxPerStageDescriptorInputAttachments = kMaxColorAttachments;
   limits.maxPerStageResources = kMaxDescriptors * 4;
   limits.maxDescriptorSetSamplers = kMaxDescriptors;
@@ -52,7 +52,7 @@ void set_descriptor_limits(VkPhysicalDeviceLimits& limits) {
   limits.maxDescriptorSetStorageBuffers = kMaxDescriptors;
   limits.maxDescriptorSetStorageBuffersDynamic = kMaxDynamicBuffers;
   limits.maxDescriptorSetSampledImages = kMaxDescriptors;
-  limits.maxDescriptorSetStorageImages = kMaxDescriptors;
+  limits.maxDescriptorSetStorageImages = 24;
   limits.maxDescriptorSetInputAttachments = kMaxColorAttachments;
   limits.minTexelBufferOffsetAlignment = 16;
   limits.minUniformBufferOffsetAlignment = 16;
