@@ -88,7 +88,8 @@ TEST(Format, FeaturesFollowTheRulesOfTheApi) {
 TEST(Format, FirstFormatsAreOffered) {
   constexpr VkFormatFeatureFlags target =
       VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT |
-      VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT;
+      VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT |
+      VK_FORMAT_FEATURE_BLIT_SRC_BIT | VK_FORMAT_FEATURE_BLIT_DST_BIT;  // conformance/features/blit_test.cpp
   for (VkFormat format : {VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R32G32B32A32_SFLOAT}) {
     EXPECT_EQ(format_properties(format).optimalTilingFeatures, target);
     EXPECT_EQ(format_properties(format).linearTilingFeatures, target);
