@@ -186,6 +186,7 @@ bool clear_image(ImageMemory target, const VkImageSubresourceRange& range, const
 
 void fill_texels(std::byte* target, uint64_t count, uint32_t texel_size, const PackedTexel& texel) {
   const uint64_t bytes = count * texel_size;
+  if (bytes == 0) return;  // `target` may be null
   if (std::all_of(texel.begin(), texel.begin() + texel_size, [&](std::byte b) { return b == texel[0]; })) {
     std::memset(target, std::to_integer<int>(texel[0]), bytes);
     return;
