@@ -96,8 +96,9 @@ TEST_F(BadShaders, HeadersThatAreNone) {
   expect_refused(code, "bound 0");
   code[3] = 0xFFFFFFFF;
   expect_refused(code, "bound 2^32 - 1");
-  expect_refused(Words(valid().begin(), valid().begin() + 5), "a header alone");
-  expect_refused(Words(valid().begin(), valid().begin() + 3), "half a header");
+  code = valid();
+  expect_refused(Words(code.begin(), code.begin() + 5), "a header alone");
+  expect_refused(Words(code.begin(), code.begin() + 3), "half a header");
 }
 
 TEST_F(BadShaders, TruncatedEverywhere) {
