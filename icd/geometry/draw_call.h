@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/removals.h"
 #include "shader/batch.h"
 #include "shader/stage.h"
 
@@ -46,6 +47,7 @@ struct DrawCall {
   VkRect2D scissor = {};
   float blend_constants[4] = {};
   uint64_t* samples_passed = nullptr;  // occlusion query result, null: none active
+  DrawLedger* ledger = nullptr;        // null: nobody asks
 };
 
 }  // namespace lapilli

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/log.h"
+#include "base/removals.h"
 #include "base/simd_dispatch.h"
 
 namespace lapilli {
@@ -54,6 +55,7 @@ void choose_simd_target() {
 Environment read_environment() {
   set_stderr_log_level_from_environment();
   choose_simd_target();
+  set_kept_removals_from_environment();
   Environment environment;
   environment.threads = static_cast<unsigned>(positive_number("LAPILLI_THREADS", kMaxThreads).value_or(cpu_count()));
   if (const auto timeout = positive_number("LAPILLI_TIMEOUT_MS", kMaxTimeoutMs)) {

@@ -1,4 +1,5 @@
-// The driver's environment variables: LAPILLI_LOG, LAPILLI_THREADS, LAPILLI_SIMD, LAPILLI_TIMEOUT_MS.
+// The driver's environment variables: LAPILLI_LOG, LAPILLI_THREADS, LAPILLI_SIMD, LAPILLI_TIMEOUT_MS,
+// LAPILLI_KEEP.
 #pragma once
 
 #include <chrono>
