@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "image/format.h"
 #include "shader/fixed_function.h"
 #include "shader/passes/passes.h"
 #include "shader/spirv/lower.h"
@@ -163,34 +164,55 @@ Result<Code> make_vertex_code(const ShaderStage& stage, const GraphicsState& sta
 // --- fragment
 // ----------------------------------------------------------------------------------------------------------
 
-struct DepthPlan {
-  bool active = false;
-  bool late = false;
-  uint32_t flags = 0;  // of depth_test
-};
-
-DepthPlan plan_depth(const LoweredShader& shader, const GraphicsState& state) {
-  constexpr uint32_t kWrites = 8;
-  DepthPlan plan;
-  if (!state.depth_test) return plan;
-  plan.active = state.depth_write || state.depth_compare != VK_COMPARE_OP_ALWAYS;
-  plan.flags = static_cast<uint32_t>(state.depth_compare) | (state.depth_write ? kWrites : 0);
+void plan_depth(FragmentPlan& plan, const LoweredShader& shader, const GraphicsState& state) {
+  plan.depth_test = state.depth_test && (state.depth_write || state.depth_compare != VK_COMPARE_OP_ALWAYS);
+  plan.depth_write = plan.depth_test && state.depth_write;
+  plan.depth_compare = plan.depth_test ? state.depth_compare : VK_COMPARE_OP_ALWAYS;
   const bool replaces = find_built_in(shader.built_in_outputs, spv::BuiltIn::FragDepth) != nullptr;
-  plan.late = !shader.early_fragment_tests && (replaces || shader.stores || (shader.kills && state.depth_write));
-  return plan;
+  const bool late = !shader.early_fragment_tests && (replaces || shader.stores || (shader.kills && state.depth_write));
+  plan.early_depth = plan.depth_test && !late;
+}
+
+void emit_depth_test(Code& code, const FragmentPlan& plan, Reg z, uint32_t end_label) {
+  constexpr uint32_t kWrites = 8;
+  const uint32_t flags = static_cast<uint32_t>(plan.depth_compare) | (plan.depth_write ? kWrites : 0);
+  code.emit_void(Opcode::depth_test, z, kNoReg, kNoReg, flags, end_label);
+}
+
+bool blends_or_masks(const VkPipelineColorBlendAttachmentState& state, VkFormat format) {
+  const FormatInfo* const info = find_format(format);
+  uint32_t components = 0;
+  for (uint32_t i = 0; info != nullptr && i < 4; ++i) components |= uint32_t{info->components[i].bits != 0} << i;
+  return state.blendEnable == VK_TRUE || (state.colorWriteMask & components) != components;
+}
+
+// DESIGN.md, "Deferred shading of opaque draws".
+void plan_shading(FragmentPlan& plan, const LoweredShader& shader, const GraphicsState& state) {
+  size_t targets = 0, stores = 0;
+  bool whole = true;
+  for (size_t i = 0; i < state.color_formats.size() && i < state.blend.size(); ++i) {
+    if (state.color_formats[i] == VK_FORMAT_UNDEFINED) continue;
+    ++targets;
+    whole = whole && !blends_or_masks(state.blend[i], state.color_formats[i]);
+  }
+  for (const Instruction& instruction : shader.code.instructions) stores += instruction.op == Opcode::store_color;
+  plan.writes_color = stores > 0;
+  const bool reads_helpers = find_built_in(shader.built_in_inputs, spv::BuiltIn::HelperInvocation) != nullptr;
+  plan.deferrable = plan.writes_color && stores == targets && whole && !shader.kills && !shader.stores &&
+                    !reads_helpers && plan.early_depth == plan.depth_test;
 }
 
 // Behind the shader: late depth, the count of samples that passed, colours.
-Result<void> emit_fragment_epilogue(LoweredShader& shader, const GraphicsState& state, const DepthPlan& depth,
+Result<void> emit_fragment_epilogue(LoweredShader& shader, const GraphicsState& state, const FragmentPlan& plan,
                                     Reg depth_reg) {
   Code& code = shader.code;
-  if (depth.active && depth.late) {
+  if (plan.depth_test && !plan.early_depth) {
     Reg z = depth_reg;
     if (const InterfaceBuiltIn* replaced = find_built_in(shader.built_in_outputs, spv::BuiltIn::FragDepth)) {
       const Reg above = code.emit(Opcode::fmax, code.constant(0), replaced->regs[0]);
       z = code.emit(Opcode::fmin, code.constant_f(1.0f), above);
     }
-    code.emit_void(Opcode::depth_test, z, kNoReg, kNoReg, depth.flags, shader.end_label);
+    emit_depth_test(code, plan, z, shader.end_label);
   }
   code.append(Opcode::count_samples);
   for (uint32_t i = 0; i < state.color_formats.size() && i < state.blend.size(); ++i) {
@@ -220,16 +242,15 @@ Varyings link_varyings(const LoweredShader& shader, const std::vector<bool>& liv
   return varyings;
 }
 
-// Before the shader: early depth, interpolation.
-void emit_fragment_prologue(LoweredShader& shader, const DepthPlan& depth, Reg depth_reg, const Varyings& varyings,
-                            const std::vector<bool>& live) {
+// Before the shader: early depth, interpolation. `early`: the depth test is here.
+void emit_fragment_prologue(LoweredShader& shader, const FragmentPlan& plan, bool early, Reg depth_reg,
+                            const Varyings& varyings, const std::vector<bool>& live) {
   Code& code = shader.code;
   const InterfaceBuiltIn* position = find_built_in(shader.built_in_inputs, spv::BuiltIn::FragCoord);
   const bool reads_z = position != nullptr && live[position->regs[2]];
   const bool reads_w = position != nullptr && live[position->regs[3]];
-  const bool early = depth.active && !depth.late;
   if (early || reads_z || live[depth_reg]) append_to(code, Opcode::frag_depth, depth_reg, 1);
-  if (early) code.emit_void(Opcode::depth_test, depth_reg, kNoReg, kNoReg, depth.flags, shader.end_label);
+  if (early) emit_depth_test(code, plan, depth_reg, shader.end_label);
   if (reads_z) code.emit_to(Opcode::mov, position->regs[2], depth_reg);
   emit_built_ins(shader, live);
   const auto uses = [&](Interpolation how) {
@@ -273,7 +294,6 @@ Result<GraphicsCode> make_graphics_code(const ShaderStage& vertex, const ShaderS
   GraphicsCode out;
   LoweredShader shader;
   Varyings varyings;
-  DepthPlan depth;
   Reg depth_reg = kNoReg;
   const auto build = [&](bool with_shader) -> Result<void> {
     shader = LoweredShader{};
@@ -286,23 +306,25 @@ Result<GraphicsCode> make_graphics_code(const ShaderStage& vertex, const ShaderS
       shader.end_label = shader.code.new_label();
     }
     shader.code.color_formats.assign(state.color_formats.begin(), state.color_formats.end());
-    depth = plan_depth(shader, state);
+    plan_depth(out, shader, state);
     depth_reg = shader.code.new_value();
-    return emit_fragment_epilogue(shader, state, depth, depth_reg);
+    return emit_fragment_epilogue(shader, state, out, depth_reg);
   };
   if (Result<void> r = build(fragment != nullptr); !r) return r.error();
-  const bool replaces_depth = depth.late && find_built_in(shader.built_in_outputs, spv::BuiltIn::FragDepth) != nullptr;
+  const bool late_depth = out.depth_test && !out.early_depth;
+  const bool replaces_depth = late_depth && find_built_in(shader.built_in_outputs, spv::BuiltIn::FragDepth) != nullptr;
   out.fragment_reads_nothing = !has_effects(shader) && !replaces_depth;
   if (out.fragment_reads_nothing && fragment != nullptr) {  // nobody sees what the shader computes
     if (Result<void> r = build(false); !r) return r.error();
   }
+  plan_shading(out, shader, state);
   const std::vector<bool> live = finish(shader);
   varyings = link_varyings(shader, live);
   if (varyings.size() > kMaxVaryingComponents)
     return Error{VK_ERROR_UNKNOWN, "the fragment shader reads more than " + std::to_string(kMaxVaryingComponents) +
                                        " components of inputs"};
   const size_t first = shader.code.instructions.size();
-  emit_fragment_prologue(shader, depth, depth_reg, varyings, live);
+  emit_fragment_prologue(shader, out, out.early_depth && !state.raster_tests_depth, depth_reg, varyings, live);
   move_to_front(shader.code, first);
   Result<Code> vertex_code = make_vertex_code(vertex, state, layout, varyings);
   if (!vertex_code) return vertex_code.error();
@@ -328,6 +350,7 @@ Result<GraphicsPrograms> build_graphics(const ShaderStage& vertex, const ShaderS
   Result<GraphicsCode> code = make_graphics_code(vertex, fragment, state, layout);
   if (!code) return code.error();
   GraphicsPrograms out;
+  static_cast<FragmentPlan&>(out) = *code;
   Result<ProgramPtr> program = assemble(std::move(code->vertex));
   if (!program) return program.error();
   out.vertex = std::move(*program);

@@ -38,11 +38,24 @@ struct GraphicsState {
   std::span<const VertexAttribute> attributes;
   bool depth_test = false, depth_write = false;  // false too where the pass has no depth attachment
   VkCompareOp depth_compare = VK_COMPARE_OP_ALWAYS;
+  bool raster_tests_depth = false;          // the early depth test is not in the program
   std::span<const VkFormat> color_formats;  // by attachment index of the subpass; VK_FORMAT_UNDEFINED: unused
   std::span<const VkPipelineColorBlendAttachmentState> blend;  // same length
 };
 
-struct GraphicsPrograms {
+// What raster/ has to know of a draw before it shades.
+struct FragmentPlan {
+  bool depth_test = false;   // there is a depth test, or a write at least
+  bool early_depth = false;  // it comes before the program, in the order of the API
+  bool depth_write = false;
+  VkCompareOp depth_compare = VK_COMPARE_OP_ALWAYS;
+  bool writes_color = false;
+  // Nobody can tell whether a pixel that a later draw covers was shaded: every colour attachment is written in full,
+  // and nothing else happens but the early depth test.
+  bool deferrable = false;
+};
+
+struct GraphicsPrograms : FragmentPlan {
   ProgramPtr vertex;
   ProgramPtr fragment;                  // null: nothing would be written (no fragment stage, no depth)
   std::vector<Interpolation> varyings;  // one per varying component, from kSlotVaryings on

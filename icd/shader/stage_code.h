@@ -7,7 +7,7 @@
 
 namespace lapilli {
 
-struct GraphicsCode {
+struct GraphicsCode : FragmentPlan {
   Code vertex, fragment;
   std::vector<Interpolation> varyings;
   uint32_t output_slots = 0;

@@ -148,6 +148,54 @@ TEST_F(Stage, DepthIsEarlyUnlessDiscardDecides) {
   EXPECT_EQ(count(code.fragment, Opcode::depth_test), 0u);
 }
 
+TEST_F(Stage, EarlyDepthMayBeLeftToTheRasterizer) {
+  state.depth_test = state.depth_write = state.raster_tests_depth = true;
+  state.depth_compare = VK_COMPARE_OP_LESS;
+  make();
+  EXPECT_EQ(count(code.fragment, Opcode::depth_test), 0u);
+  EXPECT_EQ(count(code.fragment, Opcode::frag_depth), 0u);
+  EXPECT_TRUE(code.depth_test && code.early_depth && code.depth_write);
+  EXPECT_EQ(code.depth_compare, VK_COMPARE_OP_LESS);
+  specialization = {{0, 1, 4}};  // discard
+  make();
+  EXPECT_EQ(count(code.fragment, Opcode::depth_test), 1u);
+  EXPECT_TRUE(code.depth_test && !code.early_depth && code.depth_write);
+  state.depth_write = false;
+  state.depth_compare = VK_COMPARE_OP_ALWAYS;
+  make();
+  EXPECT_FALSE(code.depth_test || code.early_depth || code.depth_write);
+}
+
+TEST_F(Stage, DeferrableIfNothingButTheLastColourCanBeSeen) {
+  formats[1] = VK_FORMAT_UNDEFINED;  // the shader does not write it
+  state.depth_test = state.depth_write = true;
+  state.depth_compare = VK_COMPARE_OP_LESS;
+  make();
+  EXPECT_TRUE(code.deferrable && code.writes_color);
+  blend[0].colorWriteMask = 0x7;
+  make();
+  EXPECT_FALSE(code.deferrable);
+  formats[0] = VK_FORMAT_R8G8_UNORM;  // has no blue and no alpha
+  blend[0].colorWriteMask = 0x3;
+  make();
+  EXPECT_TRUE(code.deferrable);
+  blend[0].blendEnable = VK_TRUE;
+  make();
+  EXPECT_FALSE(code.deferrable);
+  blend[0].blendEnable = VK_FALSE;
+  formats[1] = VK_FORMAT_R8G8B8A8_UNORM;
+  make();
+  EXPECT_FALSE(code.deferrable);
+  formats[1] = VK_FORMAT_UNDEFINED;
+  specialization = {{0, 1, 4}};  // discard
+  make();
+  EXPECT_FALSE(code.deferrable);
+  specialization.clear();
+  formats.assign(3, VK_FORMAT_UNDEFINED);
+  make();
+  EXPECT_FALSE(code.deferrable || code.writes_color);
+}
+
 TEST_F(Stage, WithoutFragmentShader) {
   const ShaderStage vertex{parse_or_fail(shaders::kInterfaceVert), "main", {}};
   state.depth_test = state.depth_write = true;
