@@ -22,31 +22,28 @@ struct TileRange {
   uint32_t x0, y0, x1, y1;  // inclusive
 };
 
-TileRange tiles_of(const PixelRect& bounds) {
-  return {static_cast<uint32_t>(bounds.x0) / kTileSize, static_cast<uint32_t>(bounds.y0) / kTileSize,
-          static_cast<uint32_t>(bounds.x1 - 1) / kTileSize, static_cast<uint32_t>(bounds.y1 - 1) / kTileSize};
+TileRange tiles_of(const BinTriangle& triangle) {
+  return {triangle.x0 / kTileSize, triangle.y0 / kTileSize, (triangle.x1 - 1u) / kTileSize,
+          (triangle.y1 - 1u) / kTileSize};
 }
 
 }  // namespace
 
-void finish_chunk(const TileGrid& grid, std::span<const DrawCall> draws, BinChunk& chunk) {
+void finish_chunk(const TileGrid& grid, BinChunk& chunk) {
   struct Entry {
     uint32_t tile, triangle;
   };
   std::vector<Entry> entries;
   entries.reserve(chunk.triangles.size());
   chunk.tile_first.assign(grid.count() + 1, 0);
-  const float* varyings = chunk.varyings.data();
   for (uint32_t t = 0; t < chunk.triangles.size(); ++t) {
-    BinTriangle& triangle = chunk.triangles[t];
-    triangle.setup.varyings = varyings;
-    varyings += 3 * draws[triangle.draw].programs->varyings.size();
-    const TileRange range = tiles_of(triangle.bounds);
+    const BinTriangle& triangle = chunk.triangles[t];
+    const TileRange range = tiles_of(triangle);
     const bool test_edges = range.x0 != range.x1 && range.y0 != range.y1;
+    const CoverageEdges edges = test_edges ? make_edges(chunk, triangle) : CoverageEdges{};
     for (uint32_t y = range.y0; y <= range.y1; ++y) {
       for (uint32_t x = range.x0; x <= range.x1; ++x) {
-        if (test_edges &&
-            !may_touch(triangle.edges, static_cast<int32_t>(x * kTileSize), static_cast<int32_t>(y * kTileSize))) {
+        if (test_edges && !may_touch(edges, static_cast<int32_t>(x * kTileSize), static_cast<int32_t>(y * kTileSize))) {
           continue;
         }
         const uint32_t tile = y * grid.columns + x;

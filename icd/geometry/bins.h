@@ -13,12 +13,60 @@
 
 namespace lapilli {
 
+// x and y of a BinVertex are clipped to this, so that 24.8 fixed point fits the edge functions.
+constexpr double kGuardBand = 32768.0;  // pixels from framebuffer (0, 0)
+
 // Pixels [x0, x1) x [y0, y1) in framebuffer space; empty where x1 <= x0 or y1 <= y0.
 struct PixelRect {
   int32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   bool empty() const { return x1 <= x0 || y1 <= y0; }
+  friend bool operator==(const PixelRect&, const PixelRect&) = default;
 };
 PixelRect intersect(const PixelRect& a, const PixelRect& b);
+
+// A vertex in framebuffer space. Triangles that share it share this.
+struct BinVertex {
+  int32_t x, y;  // 24.8 fixed point, at most kGuardBand pixels from (0, 0)
+  double z;      // without depth bias
+  float inverse_w;
+  uint32_t varyings;  // its first component in BinChunk::varyings
+};
+
+// The triangles of one draw in a chunk: what they have in common.
+struct BinRun {
+  uint32_t draw = 0;  // index into the pass's draws
+  std::span<const Interpolation> varyings;
+  float min_depth = 0, max_depth = 1;
+  bool depth_bias = false;
+  float bias_constant = 0, bias_clamp = 0, bias_slope = 0;
+};
+
+struct BinTriangle {
+  uint16_t v[3];            // in BinChunk::vertices, clockwise on the screen (y down); v[0] has the flat varyings
+  uint16_t run;             // in BinChunk::runs; kFrontFacing may be set
+  uint16_t x0, y0, x1, y1;  // pixels [x0, x1) x [y0, y1): clipped to scissor, viewport and render area; never empty
+
+  static constexpr uint16_t kFrontFacing = 0x8000;
+  bool front_facing() const { return (run & kFrontFacing) != 0; }
+  uint32_t run_index() const { return run & (kFrontFacing - 1u); }
+  PixelRect bounds() const { return {x0, y0, x1, y1}; }
+};
+static_assert(sizeof(BinTriangle) == 16);
+
+// The triangles of some consecutive primitives.
+struct BinChunk {
+  std::vector<BinRun> runs;
+  std::vector<BinVertex> vertices;
+  std::vector<float> varyings;
+  std::vector<BinTriangle> triangles;
+  std::vector<uint32_t> tile_first;  // [tile] first entry of the tile in `references`; one more at the end
+  std::vector<uint32_t> references;  // indices into triangles, grouped by tile, in primitive order
+
+  std::span<const uint32_t> tile(uint32_t index) const {
+    return std::span(references).subspan(tile_first[index], tile_first[index + 1] - tile_first[index]);
+  }
+  const BinRun& run_of(const BinTriangle& triangle) const { return runs[triangle.run_index()]; }
+};
 
 // The three edge functions for coverage, as integers in units of 1/256 of TriangleSetup's: with the top-left rule
 // folded into c, pixel (x, y) is covered where a*x + b*y + c >= 0 for all three. |a|, |b| <= 2^24, so that inside a
@@ -27,25 +75,12 @@ struct CoverageEdges {
   int32_t a[3], b[3];
   int64_t c[3];
 };
+CoverageEdges make_edges(const BinChunk& chunk, const BinTriangle& triangle);
 
-struct BinTriangle {
-  TriangleSetup setup;
-  CoverageEdges edges;
-  PixelRect bounds;   // clipped to scissor, viewport and render area; never empty
-  uint32_t draw = 0;  // index into the pass's draws
-};
-
-// The triangles of some consecutive primitives.
-struct BinChunk {
-  std::vector<BinTriangle> triangles;
-  std::vector<float> varyings;       // TriangleSetup::varyings points into it
-  std::vector<uint32_t> tile_first;  // [tile] first entry of the tile in `references`; one more at the end
-  std::vector<uint32_t> references;  // indices into triangles, grouped by tile, in primitive order
-
-  std::span<const uint32_t> tile(uint32_t index) const {
-    return std::span(references).subspan(tile_first[index], tile_first[index + 1] - tile_first[index]);
-  }
-};
+// What a triangle needs to be depth tested and shaded; `varyings` is left alone.
+TriangleSetup make_triangle_setup(const BinChunk& chunk, const BinTriangle& triangle);
+// TriangleSetup::varyings: writes 3 floats for each component of the run.
+void make_varying_planes(const BinChunk& chunk, const BinTriangle& triangle, float* planes);
 
 struct TileGrid {
   uint32_t columns = 0, rows = 0;

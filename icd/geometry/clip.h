@@ -5,11 +5,9 @@
 #include <cstdint>
 #include <span>
 
-namespace lapilli {
+#include "geometry/bins.h"
 
-// x and y may leave the viewport by this much before they are clipped: 24.8 fixed point then still fits the edge
-// functions.
-constexpr double kGuardBand = 32768.0;  // pixels from framebuffer (0, 0)
+namespace lapilli {
 
 constexpr uint32_t kMaxClippedVertices = 3 + 6;  // each plane adds at most one
 

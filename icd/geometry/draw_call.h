@@ -1,5 +1,7 @@
 // A draw with all of its state flattened: what queue/ hands to geometry/ and raster/. Immutable once made.
-// Specification: chapters "Drawing Commands", "Rasterization".
+// What consecutive draws have in common is in blocks that they share: where two draws point to the same block nothing
+// in it differs, so that what was made from it for one serves the other too. Specification: chapters "Drawing
+// Commands", "Rasterization".
 #pragma once
 
 #include <vulkan/vulkan_core.h>
@@ -32,20 +34,28 @@ struct RasterState {
   float line_width = 1;
 };
 
-struct DrawCall {
+// What the pipeline and the dynamic state say.
+struct DrawState {
   const GraphicsPrograms* programs = nullptr;
-  ResourceTable resources;
-  VertexBinding bindings[kMaxVertexBindings];
+  RasterState raster;
+  VkViewport viewport = {};
+  VkRect2D scissor = {};
+  float blend_constants[4] = {};
+};
+
+// Most draws that are rendered at once: an index of a draw fits 16 bits.
+constexpr uint32_t kMaxDraws = 1u << 16;
+
+struct DrawCall {
+  const DrawState* state = nullptr;
+  const VertexBinding* bindings = nullptr;  // as many as the vertex program's attributes name
+  const ResourceTable* resources = nullptr;
   IndexBuffer indices;
   uint32_t first = 0;         // firstIndex or firstVertex
   uint32_t count = 0;         // indexCount or vertexCount
   int32_t vertex_offset = 0;  // added to an index
   uint32_t first_instance = 0;
   uint32_t instance_count = 1;
-  RasterState raster;
-  VkViewport viewport = {};
-  VkRect2D scissor = {};
-  float blend_constants[4] = {};
   uint64_t* samples_passed = nullptr;  // occlusion query result, null: none active
   DrawLedger* ledger = nullptr;        // null: nobody asks
 };

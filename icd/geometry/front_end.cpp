@@ -16,8 +16,8 @@ constexpr uint32_t kChunksPerSet = 256;
 constexpr uint32_t kMaxListEntries = 1u << 20;
 
 bool draws_nothing(const DrawCall& draw) {
-  return draw.raster.rasterizer_discard || draw.programs->fragment == nullptr ||
-         !is_triangle_topology(draw.raster.topology) || draw.instance_count == 0;
+  return draw.state->raster.rasterizer_discard || draw.state->programs->fragment == nullptr ||
+         !is_triangle_topology(draw.state->raster.topology) || draw.instance_count == 0;
 }
 
 }  // namespace
@@ -42,7 +42,9 @@ void FrontEnd::enter_draw() {
     const DrawCall& draw = draws_[draw_];
     if (draws_nothing(draw)) continue;
     split_runs(draw, runs_);
-    const auto has_triangle = [&](const VertexRun& run) { return triangle_count(draw.raster.topology, run.count) > 0; };
+    const auto has_triangle = [&](const VertexRun& run) {
+      return triangle_count(draw.state->raster.topology, run.count) > 0;
+    };
     if (std::any_of(runs_.begin(), runs_.end(), has_triangle)) return;
   }
 }
@@ -59,7 +61,7 @@ bool FrontEnd::take_triangles(uint32_t most, WorkItem& item) {
       enter_draw();
       continue;
     }
-    const uint32_t all = triangle_count(draws_[draw_].raster.topology, runs_[run_].count);
+    const uint32_t all = triangle_count(draws_[draw_].state->raster.topology, runs_[run_].count);
     if (triangle_ == all) {
       ++run_;
       triangle_ = 0;
@@ -107,8 +109,7 @@ bool FrontEnd::next(BinSet& set) {
 }
 
 void FrontEnd::fill(const Chunk& plan, VertexStage& stage, BinChunk& out) {
-  out.triangles.clear();
-  out.varyings.clear();
+  clear_chunk(out);
   struct Slots {
     uint32_t v[3];
   };
@@ -126,7 +127,7 @@ void FrontEnd::fill(const Chunk& plan, VertexStage& stage, BinChunk& out) {
       const WorkItem& item = items_[i];
       if (first || item.instance != instance) stage.begin_instance(instance = item.instance);
       for (uint32_t t = item.first_triangle; t < item.first_triangle + item.triangles; ++t) {
-        const TrianglePositions positions = triangle_positions(draw.raster.topology, t);
+        const TrianglePositions positions = triangle_positions(draw.state->raster.topology, t);
         Slots slots;
         for (int v = 0; v < 3; ++v) {
           uint32_t index = item.run.first + positions.v[v];
@@ -139,14 +140,18 @@ void FrontEnd::fill(const Chunk& plan, VertexStage& stage, BinChunk& out) {
         triangles.push_back(slots);
       }
     }
-    stage.run(state);
+    begin_run(state, out);
+    stage.run(state, out);
     for (const Slots& slots : triangles) {
-      const PostVertex* const vertices[3] = {&stage.vertex(slots.v[0]), &stage.vertex(slots.v[1]),
-                                             &stage.vertex(slots.v[2])};
+      TriangleVertices vertices;
+      for (int v = 0; v < 3; ++v) {
+        vertices.vertex[v] = &stage.vertex(slots.v[v]);
+        vertices.index[v] = stage.first_vertex() + slots.v[v];
+      }
       set_up_triangle(state, vertices, out);
     }
   }
-  finish_chunk(grid_, draws_, out);
+  finish_chunk(grid_, out);
 }
 
 }  // namespace lapilli

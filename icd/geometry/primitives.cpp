@@ -36,7 +36,7 @@ uint32_t read_index(const IndexBuffer& indices, uint64_t position) {
 
 void split_runs(const DrawCall& draw, std::vector<VertexRun>& runs) {
   runs.clear();
-  if (draw.indices.data == nullptr || !draw.raster.primitive_restart) {
+  if (draw.indices.data == nullptr || !draw.state->raster.primitive_restart) {
     runs.push_back({draw.first, draw.count});
     return;
   }

@@ -45,7 +45,9 @@ TEST(Primitives, IndicesOutsideTheBufferAreZero) {
 
 TEST(Primitives, RestartSplitsRuns) {
   const uint16_t data[] = {0xFFFF, 1, 2, 3, 0xFFFF, 0xFFFF, 4, 5};
+  DrawState state;
   DrawCall draw;
+  draw.state = &state;
   draw.indices = {reinterpret_cast<const std::byte*>(data), sizeof(data), VK_INDEX_TYPE_UINT16};
   draw.count = 8;
   std::vector<VertexRun> runs;
@@ -53,7 +55,7 @@ TEST(Primitives, RestartSplitsRuns) {
   ASSERT_EQ(runs.size(), 1u);  // restart is off
   EXPECT_EQ(runs[0].count, 8u);
 
-  draw.raster.primitive_restart = true;
+  state.raster.primitive_restart = true;
   split_runs(draw, runs);
   ASSERT_EQ(runs.size(), 2u);
   EXPECT_EQ(runs[0].first, 1u);

@@ -32,19 +32,26 @@ enum class VertexClass : uint8_t { inside, needs_clipping, dropped };
 // A vertex after the vertex program and the viewport transformation.
 struct PostVertex {
   float clip[4];
-  int32_t x, y;  // 24.8 fixed point, if inside
-  double z;      // framebuffer space, without depth bias
-  float inverse_w;
   VertexClass kind;
-  const float* outputs;  // varying component k is outputs[(kSlotVaryings + k) * kBatchLanes]
 };
-PostVertex post_transform(const SetupState& state, const float* outputs);
 
-// Appends what is left of a triangle after clipping and culling: none, one or several triangles.
-// vertices[0] is the provoking vertex. TriangleSetup::varyings is set by `finish_chunk`.
-void set_up_triangle(const SetupState& state, const PostVertex* const (&vertices)[3], BinChunk& chunk);
+// Transforms one lane of a vertex program's outputs ([slot][kBatchLanes]) and appends it to the chunk's vertices, with
+// its varyings; x, y, z and 1/w have no meaning unless it is inside.
+PostVertex append_vertex(const SetupState& state, const float* outputs, BinChunk& chunk);
 
-// Sets the varying pointers and sorts the triangles into tiles.
-void finish_chunk(const TileGrid& grid, std::span<const DrawCall> draws, BinChunk& chunk);
+// Appends what is left of a triangle after clipping and culling: none, one or several triangles of the last run.
+// [0] is the provoking vertex; `index`: in the chunk's vertices.
+struct TriangleVertices {
+  const PostVertex* vertex[3];
+  uint32_t index[3];
+};
+void set_up_triangle(const SetupState& state, const TriangleVertices& vertices, BinChunk& chunk);
+
+// Starts the triangles of a draw.
+void begin_run(const SetupState& state, BinChunk& chunk);
+// Empties it; keeps its memory.
+void clear_chunk(BinChunk& chunk);
+// Sorts the triangles into tiles.
+void finish_chunk(const TileGrid& grid, BinChunk& chunk);
 
 }  // namespace lapilli

@@ -14,13 +14,15 @@ constexpr PixelRect kArea = {0, 0, 200, 100};
 
 struct Fixture {
   GraphicsPrograms programs;
+  DrawState bound;
   DrawCall draw;
   alignas(64) float outputs[(kSlotVaryings + 2) * kBatchLanes] = {};  // lanes 0..2 are the vertices
 
   Fixture() {
-    draw.programs = &programs;
-    draw.viewport = {0, 0, 200, 100, 0, 1};
-    draw.scissor = {{0, 0}, {200, 100}};
+    bound.programs = &programs;
+    bound.viewport = {0, 0, 200, 100, 0, 1};
+    bound.scissor = {{0, 0}, {200, 100}};
+    draw.state = &bound;
   }
   void vertex(size_t lane, float x, float y, float z, float w, float varying = 0) {
     const float values[] = {x, y, z, w};
@@ -29,15 +31,23 @@ struct Fixture {
   }
   BinChunk run() {
     const SetupState state = make_setup_state(draw, 0, kArea);
-    const PostVertex v[3] = {post_transform(state, outputs), post_transform(state, outputs + 1),
-                             post_transform(state, outputs + 2)};
-    const PostVertex* const pointers[3] = {&v[0], &v[1], &v[2]};
     BinChunk chunk;
-    set_up_triangle(state, pointers, chunk);
-    finish_chunk({4, 2}, std::span(&draw, 1), chunk);
+    begin_run(state, chunk);
+    PostVertex post[3];
+    TriangleVertices vertices;
+    for (uint32_t i = 0; i < 3; ++i) {
+      post[i] = append_vertex(state, outputs + i, chunk);
+      vertices.vertex[i] = &post[i];
+      vertices.index[i] = i;
+    }
+    set_up_triangle(state, vertices, chunk);
+    finish_chunk({4, 2}, chunk);
     return chunk;
   }
 };
+
+// The only triangle, ready to be shaded.
+TriangleSetup setup_of(const BinChunk& chunk) { return make_triangle_setup(chunk, chunk.triangles.at(0)); }
 
 // Top left, top right, bottom left in clip space: clockwise on the screen.
 void clockwise(Fixture& f) {
@@ -53,13 +63,13 @@ TEST(Setup, FacingAndCulling) {
          {VK_CULL_MODE_NONE, VK_CULL_MODE_FRONT_BIT, VK_CULL_MODE_BACK_BIT, VK_CULL_MODE_FRONT_AND_BACK}) {
       Fixture f;
       clockwise(f);
-      f.draw.raster.front_face = front_face;
-      f.draw.raster.cull_mode = cull;
+      f.bound.raster.front_face = front_face;
+      f.bound.raster.cull_mode = cull;
       const BinChunk chunk = f.run();
       const bool culled = (cull & (front ? VK_CULL_MODE_FRONT_BIT : VK_CULL_MODE_BACK_BIT)) != 0;
       ASSERT_EQ(chunk.triangles.size(), culled ? 0u : 1u);
       if (!culled) {
-        EXPECT_EQ(chunk.triangles[0].setup.front_facing, front ? ~0u : 0u);
+        EXPECT_EQ(setup_of(chunk).front_facing, front ? ~0u : 0u);
       }
     }
   }
@@ -70,7 +80,7 @@ TEST(Setup, EdgesSumToTheAreaAndVanishAtVertices) {
   clockwise(f);
   const BinChunk chunk = f.run();
   ASSERT_EQ(chunk.triangles.size(), 1u);
-  const TriangleSetup& setup = chunk.triangles[0].setup;
+  const TriangleSetup setup = setup_of(chunk);
   const double area2 = 200.0 * 256 * 100 * 256;
   EXPECT_EQ(setup.inverse_area2, 1 / area2);
   EXPECT_EQ(setup.edge_c[0] + setup.edge_c[1] + setup.edge_c[2], area2);
@@ -79,8 +89,8 @@ TEST(Setup, EdgesSumToTheAreaAndVanishAtVertices) {
     const double at_vertex = setup.edge_c[i] - 0.5 * setup.edge_a[i] - 0.5 * setup.edge_b[i];
     EXPECT_EQ(at_vertex, i == 0 ? area2 : 0);
   }
-  EXPECT_EQ(setup.z[0], 0);
-  EXPECT_EQ(setup.z[1] + setup.z[2], 1.5);
+  EXPECT_EQ(setup.depth.z0, 0);
+  EXPECT_DOUBLE_EQ((setup.depth.k1 + setup.depth.k2) * area2, 1.5);
 }
 
 TEST(Setup, InvalidPositionsAreDropped) {
@@ -98,27 +108,27 @@ TEST(Setup, InvalidPositionsAreDropped) {
 TEST(Setup, ScissorViewportAndAreaLimitPixels) {
   Fixture f;
   clockwise(f);
-  f.draw.scissor = {{10, 20}, {1000, 30}};
+  f.bound.scissor = {{10, 20}, {1000, 30}};
   BinChunk chunk = f.run();
   ASSERT_EQ(chunk.triangles.size(), 1u);
-  EXPECT_EQ(chunk.triangles[0].bounds.x0, 10);
-  EXPECT_EQ(chunk.triangles[0].bounds.y0, 20);
-  EXPECT_EQ(chunk.triangles[0].bounds.x1, 200);
-  EXPECT_EQ(chunk.triangles[0].bounds.y1, 50);
-  f.draw.scissor = {{0, 0}, {0, 100}};
+  EXPECT_EQ(chunk.triangles[0].x0, 10);
+  EXPECT_EQ(chunk.triangles[0].y0, 20);
+  EXPECT_EQ(chunk.triangles[0].x1, 200);
+  EXPECT_EQ(chunk.triangles[0].y1, 50);
+  f.bound.scissor = {{0, 0}, {0, 100}};
   EXPECT_TRUE(f.run().triangles.empty());
   // A triangle larger than the viewport covers pixels with centres in [x, x + width) only.
-  f.draw.scissor = {{0, 0}, {200, 100}};
-  f.draw.viewport = {10.5f, 20.25f, 50, 40, 0, 1};
+  f.bound.scissor = {{0, 0}, {200, 100}};
+  f.bound.viewport = {10.5f, 20.25f, 50, 40, 0, 1};
   f.vertex(0, -9, -9, 0, 1);
   f.vertex(1, 9, -9, 0, 1);
   f.vertex(2, -9, 99, 0, 1);
   chunk = f.run();
   ASSERT_EQ(chunk.triangles.size(), 1u);
-  EXPECT_EQ(chunk.triangles[0].bounds.x0, 10);
-  EXPECT_EQ(chunk.triangles[0].bounds.x1, 60);
-  EXPECT_EQ(chunk.triangles[0].bounds.y0, 20);
-  EXPECT_EQ(chunk.triangles[0].bounds.y1, 60);
+  EXPECT_EQ(chunk.triangles[0].x0, 10);
+  EXPECT_EQ(chunk.triangles[0].x1, 60);
+  EXPECT_EQ(chunk.triangles[0].y0, 20);
+  EXPECT_EQ(chunk.triangles[0].y1, 60);
 }
 
 TEST(Setup, DepthBias) {
@@ -126,16 +136,16 @@ TEST(Setup, DepthBias) {
   f.vertex(0, -1, -1, 0.5f, 1);
   f.vertex(1, 1, -1, 0.5f, 1);
   f.vertex(2, -1, 1, 0.75f, 1);  // dz/dy = 0.25 / 100 pixels
-  f.draw.raster.depth_bias = true;
-  f.draw.raster.depth_bias_slope = 2;
-  f.draw.raster.depth_bias_constant = 3;
+  f.bound.raster.depth_bias = true;
+  f.bound.raster.depth_bias_slope = 2;
+  f.bound.raster.depth_bias_constant = 3;
   BinChunk chunk = f.run();
   ASSERT_EQ(chunk.triangles.size(), 1u);
   // o = m * slope + r * constant, r = 2^(e - 23) with e the exponent of the largest z, 0.75 = 1.5 * 2^-1.
-  EXPECT_NEAR(chunk.triangles[0].setup.z[0], 0.5 + 2 * 0.0025 + 3 * std::ldexp(1.0, -24), 1e-15);
-  f.draw.raster.depth_bias_clamp = 0.001f;
+  EXPECT_NEAR(setup_of(chunk).depth.z0, 0.5 + 2 * 0.0025 + 3 * std::ldexp(1.0, -24), 1e-15);
+  f.bound.raster.depth_bias_clamp = 0.001f;
   chunk = f.run();
-  EXPECT_EQ(chunk.triangles[0].setup.z[0], 0.5 + static_cast<double>(0.001f));
+  EXPECT_EQ(setup_of(chunk).depth.z0, 0.5 + static_cast<double>(0.001f));
 }
 
 TEST(Setup, FlatVaryingsKeepTheBitsOfTheProvokingVertex) {
@@ -148,7 +158,8 @@ TEST(Setup, FlatVaryingsKeepTheBitsOfTheProvokingVertex) {
     f.outputs[(kSlotVaryings + 1) * kBatchLanes + lane] = static_cast<float>(lane);
   const BinChunk chunk = f.run();
   ASSERT_EQ(chunk.triangles.size(), 1u);
-  const float* varyings = chunk.triangles[0].setup.varyings;
+  float varyings[6];
+  make_varying_planes(chunk, chunk.triangles[0], varyings);
   EXPECT_EQ(std::bit_cast<uint32_t>(varyings[0]), integer);
   EXPECT_EQ(varyings[3], 0);
   EXPECT_EQ(varyings[4] + varyings[5], 3);  // differences to vertex 0, in either order
@@ -164,16 +175,18 @@ TEST(Setup, ClippingKeepsTheAttributePlane) {
   const BinChunk chunk = f.run();
   ASSERT_EQ(chunk.triangles.size(), 2u);
   for (const BinTriangle& triangle : chunk.triangles) {
-    const TriangleSetup& s = triangle.setup;
+    const TriangleSetup s = make_triangle_setup(chunk, triangle);
+    float plane[3];
+    make_varying_planes(chunk, triangle, plane);
     for (const auto& [x, y] : {std::pair{20.0, 30.0}, std::pair{150.0, 60.0}}) {
-      const double l1 = (s.edge_a[1] * x + s.edge_b[1] * y + s.edge_c[1]) * s.inverse_area2;
-      const double l2 = (s.edge_a[2] * x + s.edge_b[2] * y + s.edge_c[2]) * s.inverse_area2;
+      const double e1 = s.edge_a[1] * x + s.edge_b[1] * y + s.edge_c[1];
+      const double e2 = s.edge_a[2] * x + s.edge_b[2] * y + s.edge_c[2];
       const double u = (x + 0.5) / 200;
       const double v = (y + 0.5) / 100;
-      EXPECT_NEAR(static_cast<double>(s.varyings[0]) + l1 * static_cast<double>(s.varyings[1]) +
-                      l2 * static_cast<double>(s.varyings[2]),
+      EXPECT_NEAR(static_cast<double>(plane[0]) +
+                      (e1 * static_cast<double>(plane[1]) + e2 * static_cast<double>(plane[2])) * s.inverse_area2,
                   1 + u + 2 * v, 0.01);  // corners are snapped to 1/256 pixel
-      EXPECT_NEAR(s.z[0] + l1 * s.z[1] + l2 * s.z[2], -0.5 + u + v, 0.01);
+      EXPECT_NEAR(s.depth.z0 + e1 * s.depth.k1 + e2 * s.depth.k2, -0.5 + u + v, 0.01);
     }
   }
 }

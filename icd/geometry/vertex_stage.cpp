@@ -17,7 +17,7 @@ bool VertexStage::begin(const DrawCall& draw, ExecutionLimits& limits) {
   draw_ = &draw;
   keys_.clear();
   if (lookup_.empty()) lookup_.assign(kLookupSize, Lookup{0, 0, 0});
-  return execution_.prepare(*draw.programs->vertex, draw.resources, &limits);
+  return execution_.prepare(*draw.state->programs->vertex, *draw.resources, &limits);
 }
 
 void VertexStage::begin_instance(uint32_t instance) {
@@ -43,13 +43,14 @@ uint32_t VertexStage::add(uint32_t vertex_index) {
   return slot;
 }
 
-void VertexStage::run(const SetupState& state) {
+void VertexStage::run(const SetupState& state, BinChunk& chunk) {
   const uint32_t count = static_cast<uint32_t>(keys_.size());
   const uint32_t batches = (count + kBatchLanes - 1) / kBatchLanes;
-  const size_t slots = std::max<uint32_t>(draw_->programs->output_slots, kSlotVaryings);
+  const size_t slots = std::max<uint32_t>(draw_->state->programs->output_slots, kSlotVaryings);
   const size_t lines_per_batch = slots * (kBatchLanes / 16);
-  if (outputs_.size() < batches * lines_per_batch) outputs_.resize(batches * lines_per_batch);
-  vertices_.resize(count);
+  if (outputs_.size() < lines_per_batch) outputs_.resize(lines_per_batch);
+  vertices_.clear();
+  first_vertex_ = static_cast<uint32_t>(chunk.vertices.size());
 
   VertexBatch batch;
   batch.bindings = draw_->bindings;
@@ -61,10 +62,10 @@ void VertexStage::run(const SetupState& state) {
       batch.vertex_index[lane] = key.index;
       batch.instance_index[lane] = draw_->first_instance + key.instance;
     }
-    batch.outputs = outputs_[b * lines_per_batch].value;
+    batch.outputs = outputs_[0].value;
     execution_.run_vertices(batch, lanes == kBatchLanes ? ~uint64_t{0} : (uint64_t{1} << lanes) - 1);
     for (uint32_t lane = 0; lane < lanes; ++lane) {
-      vertices_[first + lane] = post_transform(state, batch.outputs + lane);
+      vertices_.push_back(append_vertex(state, batch.outputs + lane, chunk));
     }
   }
 }

@@ -18,9 +18,11 @@ class VertexStage {
   void begin_instance(uint32_t instance);
   // Slot of the vertex with this index (vertexOffset or firstVertex included).
   uint32_t add(uint32_t vertex_index);
-  // Runs all vertices that were added.
-  void run(const SetupState& state);
+  // Runs all vertices that were added and appends them to the chunk.
+  void run(const SetupState& state, BinChunk& chunk);
   const PostVertex& vertex(uint32_t slot) const { return vertices_[slot]; }
+  // Of slot 0 in the chunk's vertices.
+  uint32_t first_vertex() const { return first_vertex_; }
 
  private:
   struct Lookup {
@@ -41,7 +43,8 @@ class VertexStage {
   uint32_t instance_ = 0;
   std::vector<Key> keys_;  // by slot
   std::vector<PostVertex> vertices_;
-  std::vector<Line> outputs_;  // [batch][slot][64 lanes]
+  uint32_t first_vertex_ = 0;
+  std::vector<Line> outputs_;  // [slot][64 lanes]
 };
 
 }  // namespace lapilli

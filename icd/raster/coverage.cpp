@@ -77,15 +77,15 @@ bool edges_in_tile(const CoverageEdges& edges, int32_t tile_x, int32_t tile_y, T
 
 }  // namespace
 
-uint32_t cover_tile(const BinTriangle& triangle, int32_t tile_x, int32_t tile_y,
+uint32_t cover_tile(const CoverageEdges& triangle, const PixelRect& triangle_bounds, int32_t tile_x, int32_t tile_y,
                     BlockCoverage (&blocks)[kBlocksPerTile * kBlocksPerTile]) {
   TileEdge edges[3];
   uint32_t edge_count = 0;
-  if (!edges_in_tile(triangle.edges, tile_x, tile_y, edges, edge_count)) return 0;
+  if (!edges_in_tile(triangle, tile_x, tile_y, edges, edge_count)) return 0;
 
   constexpr int32_t kSize = static_cast<int32_t>(kTileSize);
-  const PixelRect bounds = intersect({triangle.bounds.x0 - tile_x, triangle.bounds.y0 - tile_y,
-                                      triangle.bounds.x1 - tile_x, triangle.bounds.y1 - tile_y},
+  const PixelRect bounds = intersect({triangle_bounds.x0 - tile_x, triangle_bounds.y0 - tile_y,
+                                      triangle_bounds.x1 - tile_x, triangle_bounds.y1 - tile_y},
                                      {0, 0, kSize, kSize});
   if (bounds.empty()) return 0;
 

@@ -14,21 +14,20 @@ struct Point {
   int64_t x, y;  // 24.8
 };
 
-// The triangle's edges as geometry/setup.cpp states them; p, q, r clockwise on the screen (y down).
-BinTriangle make_triangle(Point p, Point q, Point r, const PixelRect& bounds) {
-  BinTriangle triangle{};
-  triangle.bounds = bounds;
+// The triangle's edges as geometry/planes.cpp states them; p, q, r clockwise on the screen (y down).
+CoverageEdges edges_of(Point p, Point q, Point r) {
+  CoverageEdges edges{};
   const Point from[3] = {q, r, p};
   const Point to[3] = {r, p, q};
   for (int i = 0; i < 3; ++i) {
     const int64_t dx = to[i].x - from[i].x;
     const int64_t dy = to[i].y - from[i].y;
     const bool owns_edge = dy < 0 || (dy == 0 && dx > 0);
-    triangle.edges.a[i] = static_cast<int32_t>(-dy);
-    triangle.edges.b[i] = static_cast<int32_t>(dx);
-    triangle.edges.c[i] = (dx * (128 - from[i].y) - dy * (128 - from[i].x) - (owns_edge ? 0 : 1)) >> 8;
+    edges.a[i] = static_cast<int32_t>(-dy);
+    edges.b[i] = static_cast<int32_t>(dx);
+    edges.c[i] = (dx * (128 - from[i].y) - dy * (128 - from[i].x) - (owns_edge ? 0 : 1)) >> 8;
   }
-  return triangle;
+  return edges;
 }
 
 int64_t cross(Point p, Point q, Point c) { return (q.x - p.x) * (c.y - p.y) - (q.y - p.y) * (c.x - p.x); }
@@ -52,9 +51,8 @@ void expect_equal(Point p, Point q, Point r, const PixelRect& bounds, int32_t ti
   if (area == 0) return;
   if (area < 0) std::swap(q, r);
   const Point v[3] = {p, q, r};
-  const BinTriangle triangle = make_triangle(p, q, r, bounds);
   BlockCoverage blocks[kBlocksPerTile * kBlocksPerTile];
-  const uint32_t count = cover_tile(triangle, tile_x, tile_y, blocks);
+  const uint32_t count = cover_tile(edges_of(p, q, r), bounds, tile_x, tile_y, blocks);
   std::set<std::pair<int32_t, int32_t>> got;
   for (uint32_t i = 0; i < count; ++i) {
     EXPECT_NE(blocks[i].pixels, 0u);

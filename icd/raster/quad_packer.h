@@ -21,7 +21,7 @@ class QuadPacker {
   void flush();
 
  private:
-  void add_quad(const TriangleSetup& triangle, uint32_t quad_x, uint32_t quad_y, uint64_t pixels);
+  void add_quad(const TriangleSetup& triangle, uint32_t quad, uint32_t x, uint32_t y, uint64_t pixels);
 
   const DrawCall* draw_ = nullptr;
   Execution execution_;

@@ -20,8 +20,17 @@ struct alignas(64) PlaneMemory {
   std::byte bytes[kTileTexels * 16];  // the largest texel has 16 bytes
 };
 
+// Triangles whose quads wait in the packer.
+struct ShadedTriangles {
+  static constexpr uint32_t kCount = 64;
+  TriangleSetup setup[kCount];
+  float varyings[kCount][3 * kMaxVaryingComponents];
+  uint32_t used = 0;
+};
+
 // What one thread needs to work on a tile.
 struct TileWorker {
+  ShadedTriangles shaded;
   QuadPacker packer;
   std::vector<PlaneMemory> planes;  // one for each attachment of the pass
   BlockCoverage blocks[kBlocksPerTile * kBlocksPerTile];
@@ -164,13 +173,23 @@ void Renderer::State::draw_triangles(uint32_t tile, TileWorker& worker, const Bi
   for (const BinChunk& chunk : set.chunks) {
     for (const uint32_t reference : chunk.tile(tile)) {
       const BinTriangle& triangle = chunk.triangles[reference];
-      if (!worker.packer.begin_draw(draws[triangle.draw], *limits)) {
+      if (!worker.packer.begin_draw(draws[chunk.run_of(triangle).draw], *limits)) {
         out_of_memory.store(true, std::memory_order_relaxed);
         return;
       }
-      const uint32_t blocks =
-          cover_tile(triangle, static_cast<int32_t>(tile_x), static_cast<int32_t>(tile_y), worker.blocks);
-      for (uint32_t i = 0; i < blocks; ++i) worker.packer.add(triangle.setup, worker.blocks[i]);
+      const uint32_t blocks = cover_tile(make_edges(chunk, triangle), triangle.bounds(), static_cast<int32_t>(tile_x),
+                                         static_cast<int32_t>(tile_y), worker.blocks);
+      if (blocks == 0) continue;
+      ShadedTriangles& shaded = worker.shaded;
+      if (shaded.used == ShadedTriangles::kCount) {
+        worker.packer.flush();
+        shaded.used = 0;
+      }
+      TriangleSetup& setup = shaded.setup[shaded.used];
+      setup = make_triangle_setup(chunk, triangle);
+      setup.varyings = shaded.varyings[shaded.used++];
+      make_varying_planes(chunk, triangle, shaded.varyings[shaded.used - 1]);
+      for (uint32_t i = 0; i < blocks; ++i) worker.packer.add(setup, worker.blocks[i]);
     }
     if (limits->expired.load(std::memory_order_relaxed)) break;
   }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
 #include <cstring>
 #include <random>
@@ -94,15 +95,21 @@ struct Pass {
   }
 
   VkResult run() {
+    DrawState state;
+    state.programs = &programs;
+    state.viewport = {0, 0, static_cast<float>(width), static_cast<float>(height), 0, 1};
+    state.scissor = {{0, 0}, {width, height}};
+    const ResourceTable resources;
+    std::vector<std::array<VertexBinding, kMaxVertexBindings>> bindings(vertices.size());
     std::vector<DrawCall> draws(vertices.size());
     for (size_t i = 0; i < draws.size(); ++i) {
-      draws[i].programs = &programs;
-      draws[i].bindings[0] = {reinterpret_cast<const std::byte*>(vertices[i].data()),
-                              vertices[i].size() * sizeof(Vertex), sizeof(Vertex), false};
+      bindings[i][0] = {reinterpret_cast<const std::byte*>(vertices[i].data()), vertices[i].size() * sizeof(Vertex),
+                        sizeof(Vertex), false};
+      draws[i].state = &state;
+      draws[i].bindings = bindings[i].data();
+      draws[i].resources = &resources;
       draws[i].count = static_cast<uint32_t>(vertices[i].size());
       draws[i].instance_count = instances;
-      draws[i].viewport = {0, 0, static_cast<float>(width), static_cast<float>(height), 0, 1};
-      draws[i].scissor = {{0, 0}, {width, height}};
       draws[i].samples_passed = &samples;
     }
     PassTarget target;

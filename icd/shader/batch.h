@@ -32,7 +32,14 @@ struct VertexBatch {
   float* outputs = nullptr;  // [slot][kBatchLanes], slots as in ir.h (kSlotPosition …), 64-byte aligned
 };
 
-// A triangle ready for rasterization. Framebuffer positions are 24.8 fixed point; edge i is opposite vertex i:
+// Depth of a triangle in framebuffer space: z(x, y) = (E_1 * k1 + E_2 * k2) + z0 in double with the edge functions of
+// TriangleSetup, rounded once to float, then clamped. Depth bias is in z0.
+struct DepthPlane {
+  double z0, k1, k2;  // at vertex 0; (z_i - z_0) / area2
+  float min, max;     // clamp range (the viewport's minDepth, maxDepth, in order)
+};
+
+// A triangle ready for shading. Framebuffer positions are 24.8 fixed point; edge i is opposite vertex i:
 // E_i(x, y) = a_i*x + b_i*y + c_i for a pixel centre at (256x+128, 256y+128), positive inside, sum = area2 everywhere.
 // All of them are integers below 2^53 in magnitude, so doubles hold and add them exactly.
 struct TriangleSetup {
@@ -40,14 +47,13 @@ struct TriangleSetup {
   double edge_b[3];      // change of E_i for one pixel in y
   double edge_c[3];      // E_i at the centre of framebuffer pixel (0, 0), without the fill-rule bias
   double inverse_area2;  // 1 / (E_0 + E_1 + E_2)
-  double z[3];  // depth of the vertices in framebuffer space, depth bias included; [1], [2] are differences to [0]
-  float min_depth, max_depth;  // clamp range of frag_depth (viewport's minDepth, maxDepth, in order)
-  float inverse_w[3];          // 1 / w_clip of the vertices
-  const float* varyings;       // [component][3]: a0, a1 - a0, a2 - a0; flat components: provoking vertex's bits, 0, 0
-  uint32_t front_facing;       // 0 or ~0
+  DepthPlane depth;
+  float inverse_w[3];     // 1 / w_clip of the vertices
+  const float* varyings;  // [component][3]: a0, a1 - a0, a2 - a0; flat components: provoking vertex's bits, 0, 0
+  uint32_t front_facing;  // 0 or ~0
 };
 
-// Planes of one tile in quad-major order: quad q of the tile holds texels 4q .. 4q+3.
+// Planes of one tile (image/tile.h): quad q of the tile holds texels 4q .. 4q+3; quads are counted block by block.
 struct TilePlanes {
   std::byte* color[kMaxColorAttachments] = {};
   std::byte* depth = nullptr;
@@ -59,6 +65,9 @@ struct FragmentBatch {
   alignas(64) uint16_t y[kBatchQuads];
   alignas(64) uint16_t quad_in_tile[kBatchQuads];
   bool one_triangle = false;  // triangle[i] are all the same
+  // The 16 quads are those of one 8x8 block, in order and all used: quad_in_tile[i] == quad_in_tile[0] + i, a multiple
+  // of 16 the first.
+  bool whole_block = false;
   TilePlanes planes;
   float blend_constants[4] = {};
   uint64_t* samples_passed = nullptr;  // occlusion counter of this worker

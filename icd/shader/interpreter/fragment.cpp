@@ -39,9 +39,11 @@ struct Edge {
     inverse_area2 = triangle.inverse_area2;
     steps = QuadD{0, a, b, a + b};
   }
+  HWY_INLINE void value(double x, double y, QuadD& e) const { e = steps + (a * x + b * y + c); }
   // λ, not rounded to float yet.
   HWY_INLINE void at(double x, double y, QuadD& lambda) const {
-    lambda = (steps + (a * x + b * y + c)) * inverse_area2;
+    value(x, y, lambda);
+    lambda *= inverse_area2;
   }
 };
 
@@ -84,13 +86,13 @@ struct op_frag_depth {
         edge1.load_from(*triangle, 1);
         edge2.load_from(*triangle, 2);
       }
-      QuadD l1, l2;
-      edge1.at(batch.x[quad], batch.y[quad], l1);
-      edge2.at(batch.x[quad], batch.y[quad], l2);
-      const QuadD z = l1 * triangle->z[1] + triangle->z[0] + l2 * triangle->z[2];
+      QuadD e1, e2;
+      edge1.value(batch.x[quad], batch.y[quad], e1);
+      edge2.value(batch.x[quad], batch.y[quad], e2);
+      const QuadD z = (e1 * triangle->depth.k1 + e2 * triangle->depth.k2) + triangle->depth.z0;
       QuadF depth = __builtin_convertvector(z, QuadF);
-      const QuadF low = QuadF{} + triangle->min_depth;
-      const QuadF high = QuadF{} + triangle->max_depth;
+      const QuadF low = QuadF{} + triangle->depth.min;
+      const QuadF high = QuadF{} + triangle->depth.max;
       depth = depth < low ? low : depth;
       depth = depth > high ? high : depth;
       std::memcpy(d, &depth, sizeof depth);
@@ -218,12 +220,14 @@ uint64_t whole_quads(uint64_t lanes) {
   return ((pairs | pairs >> 2) & 0x1111111111111111) * 15;
 }
 
+HWY_INLINE QuadPlaces places_of(const FragmentBatch& batch) { return {batch.quad_in_tile, batch.whole_block}; }
+
 struct op_depth_test {
   static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
     const FragmentBatch& batch = *frame->fragments;
     alignas(64) float stored[kLanes];
     float* const depth[4] = {stored, nullptr, nullptr, nullptr};
-    frame->depth->load_quads(batch.planes.depth, batch.quad_in_tile, frame->write, depth);
+    frame->depth->load_quads(batch.planes.depth, places_of(batch), frame->write, depth);
     const float* const z = reinterpret_cast<const float*>(reg_u(frame, op->a));
     uint64_t passed = 0;
     for (int i = 0; i < kVectorsPerBatch; ++i) {
@@ -235,7 +239,7 @@ struct op_depth_test {
     if (frame->write == 0) return op + static_cast<int32_t>(op->imm2);
     if ((op->imm & 8) != 0) {
       const float* const out[4] = {z, nullptr, nullptr, nullptr};
-      frame->depth->store_quads(batch.planes.depth, batch.quad_in_tile, frame->write, out, 1);
+      frame->depth->store_quads(batch.planes.depth, places_of(batch), frame->write, out, 1);
     }
     return op + 1;
   }
@@ -254,7 +258,7 @@ struct op_load_color {
     const FragmentBatch& batch = *frame->fragments;
     float* registers[4];
     for (uint32_t i = 0; i < 4; ++i) registers[i] = reinterpret_cast<float*>(reg(frame, op->dst + i));
-    frame->colors[op->imm]->load_quads(batch.planes.color[op->imm], batch.quad_in_tile, frame->write, registers);
+    frame->colors[op->imm]->load_quads(batch.planes.color[op->imm], places_of(batch), frame->write, registers);
     return op + 1;
   }
 };
@@ -267,7 +271,7 @@ struct op_store_color {
     for (uint32_t i = 0; i < 4; ++i) {
       registers[i] = list[i] == kNoOperand ? nullptr : reinterpret_cast<const float*>(reg(frame, list[i]));
     }
-    frame->colors[op->imm]->store_quads(batch.planes.color[op->imm], batch.quad_in_tile, frame->write, registers,
+    frame->colors[op->imm]->store_quads(batch.planes.color[op->imm], places_of(batch), frame->write, registers,
                                         op->imm2);
     return op + 1;
   }

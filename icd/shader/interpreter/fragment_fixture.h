@@ -38,12 +38,14 @@ struct FragmentTest {
         t.edge_a[e] = static_cast<double>(static_cast<int64_t>(random() % 2000001) - 1000000) * 256;
         t.edge_b[e] = static_cast<double>(static_cast<int64_t>(random() % 2000001) - 1000000) * 256;
         t.edge_c[e] = static_cast<double>(static_cast<int64_t>(random())) * 1024 - 1e12;
-        t.z[e] = static_cast<double>(reals(random));
         t.inverse_w[e] = std::fabs(reals(random)) + 0.125f;
       }
       t.inverse_area2 = 1.0 / (t.edge_c[0] + t.edge_c[1] + t.edge_c[2] + 0.5);
-      t.min_depth = 0.125f;
-      t.max_depth = 0.875f;
+      for (double* each : {&t.depth.z0, &t.depth.k1, &t.depth.k2}) *each = static_cast<double>(reals(random));
+      t.depth.k1 *= t.inverse_area2;
+      t.depth.k2 *= t.inverse_area2;
+      t.depth.min = 0.125f;
+      t.depth.max = 0.875f;
       t.front_facing = index % 2 == 0 ? 0xFFFFFFFFu : 0;
       for (float& v : varyings[index]) v = reals(random);
       t.varyings = varyings[index];
@@ -70,13 +72,15 @@ struct FragmentTest {
   const TriangleSetup& triangle(uint32_t lane) const { return *batch.triangle[lane / 4]; }
   uint32_t x(uint32_t lane) const { return batch.x[lane / 4] + (lane & 1); }
   uint32_t y(uint32_t lane) const { return batch.y[lane / 4] + (lane >> 1 & 1); }
-  // λ as the equation says; edges in integers.
-  double lambda(uint32_t lane, int edge) const {
+  // In integers.
+  double edge_value(uint32_t lane, int edge) const {
     const TriangleSetup& t = triangle(lane);
     const int64_t e = static_cast<int64_t>(t.edge_a[edge]) * x(lane) + static_cast<int64_t>(t.edge_b[edge]) * y(lane) +
                       static_cast<int64_t>(t.edge_c[edge]);
-    return static_cast<double>(e) * t.inverse_area2;
+    return static_cast<double>(e);
   }
+  // As the equation says.
+  double lambda(uint32_t lane, int edge) const { return edge_value(lane, edge) * triangle(lane).inverse_area2; }
   size_t texel(uint32_t lane) const { return batch.quad_in_tile[lane / 4] * 4u + (lane & 3); }
   Lanes run(Opcode op, Op operands, uint32_t result = 4) {
     test.add(op, kStore, operands);

@@ -38,8 +38,9 @@ TEST(Op, frag_depth) {
     FragmentTest t(target, one);
     const Lanes got = t.run(Opcode::frag_depth, operands(4));
     for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
-      const double* z = t.triangle(lane).z;
-      const float depth = static_cast<float>(z[0] + t.lambda(lane, 1) * z[1] + t.lambda(lane, 2) * z[2]);
+      const DepthPlane& plane = t.triangle(lane).depth;
+      const float depth =
+          static_cast<float>((t.edge_value(lane, 1) * plane.k1 + t.edge_value(lane, 2) * plane.k2) + plane.z0);
       EXPECT_EQ(f(got[lane]), std::min(std::max(depth, 0.125f), 0.875f));
     }
   });
