@@ -115,6 +115,7 @@ Result<std::vector<VertexAttribute>> vertex_input(GraphicsPart& part, const Info
   for (uint32_t i = 0; i < input.vertexBindingDescriptionCount; ++i) {
     const VkVertexInputBindingDescription& binding = input.pVertexBindingDescriptions[i];
     if (binding.binding >= kMaxVertexBindings) return unsupported("a vertex binding above maxVertexInputBindings");
+    part.binding_count = std::max(part.binding_count, binding.binding + 1);
     part.bindings[binding.binding] = {binding.stride, binding.inputRate == VK_VERTEX_INPUT_RATE_INSTANCE};
   }
   std::vector<VertexAttribute> attributes;
@@ -127,6 +128,7 @@ Result<std::vector<VertexAttribute>> vertex_input(GraphicsPart& part, const Info
     if (from.location >= kMaxVertexAttributes || from.binding >= kMaxVertexBindings) {
       return unsupported("a vertex attribute above maxVertexInputAttributes");
     }
+    part.binding_count = std::max(part.binding_count, from.binding + 1);
     attributes.push_back({from.location, from.binding, from.offset, from.format});
   }
   return attributes;

@@ -35,6 +35,7 @@ struct VertexInputBinding {
 struct GraphicsPart {
   GraphicsPrograms programs;
   VertexInputBinding bindings[kMaxVertexBindings];
+  uint32_t binding_count = 0;  // above the last that is described or that an attribute names
   VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
   bool primitive_restart = false;
   bool rasterizer_discard = false;

@@ -66,14 +66,15 @@ TEST_F(Flattening, VertexBuffersEndWhereTheBufferEnds) {
   state.vertex_buffers[1] = {buffer.get(), 24};
   state.vertex_buffers[2] = {buffer.get(), 64};  // nothing left
   pipeline->graphics.bindings[1] = {12, true};
-  DrawCall draw;
-  ASSERT_TRUE(flatten_draw(state, arena, draw));
-  EXPECT_EQ(draw.bindings[0].data, nullptr);
-  EXPECT_EQ(draw.bindings[1].data, bytes + 24);
-  EXPECT_EQ(draw.bindings[1].size, 40u);
-  EXPECT_EQ(draw.bindings[1].stride, 12u);
-  EXPECT_TRUE(draw.bindings[1].per_instance);
-  EXPECT_EQ(draw.bindings[2].size, 0u);
+  pipeline->graphics.binding_count = 3;
+  ASSERT_TRUE(refresh_blocks(state, arena));
+  const VertexBinding* const bindings = state.blocks.bindings;
+  EXPECT_EQ(bindings[0].data, nullptr);
+  EXPECT_EQ(bindings[1].data, bytes + 24);
+  EXPECT_EQ(bindings[1].size, 40u);
+  EXPECT_EQ(bindings[1].stride, 12u);
+  EXPECT_TRUE(bindings[1].per_instance);
+  EXPECT_EQ(bindings[2].size, 0u);
 }
 
 TEST_F(Flattening, DynamicStateReplacesThePipelines) {
@@ -86,19 +87,92 @@ TEST_F(Flattening, DynamicStateReplacesThePipelines) {
   state.dynamic.scissor = {{3, 3}, {4, 4}};
   state.dynamic.blend_constants[0] = 0.75f;
   state.dynamic.depth_bias_slope = 9;
-  DrawCall fixed;
-  ASSERT_TRUE(flatten_draw(state, arena, fixed));
+  ASSERT_TRUE(refresh_blocks(state, arena));
+  const DrawState& fixed = *state.blocks.state;
   EXPECT_EQ(fixed.viewport.x, 1);
   EXPECT_EQ(fixed.scissor.offset.x, 1);
   EXPECT_EQ(fixed.blend_constants[0], 0.25f);
   EXPECT_EQ(fixed.raster.depth_bias_slope, 7);
   part.dynamic = kDynamicViewport | kDynamicBlendConstants;
-  DrawCall mixed;
-  ASSERT_TRUE(flatten_draw(state, arena, mixed));
+  state.stale = kStaleState;
+  ASSERT_TRUE(refresh_blocks(state, arena));
+  const DrawState& mixed = *state.blocks.state;
   EXPECT_EQ(mixed.viewport.x, 5);
   EXPECT_EQ(mixed.scissor.offset.x, 1);
   EXPECT_EQ(mixed.blend_constants[0], 0.75f);
   EXPECT_EQ(mixed.raster.depth_bias_slope, 7);
+}
+
+TEST_F(Flattening, OnlyBlocksThatChangedAreMadeAnew) {
+  ASSERT_TRUE(refresh_blocks(state, arena));
+  const DrawCall before = state.blocks;
+
+  // The same again changes nothing.
+  bind_pipeline(state, *pipeline);
+  cmd::SetBinding bound_set{nullptr, {}};
+  cmd::BindDescriptorSets sets;
+  sets.sets = {&bound_set, 1};
+  bind_sets(state, sets);
+  set_dynamic(state, state.dynamic.viewport, VkViewport{});
+  EXPECT_EQ(state.stale, 0u);
+
+  const uint32_t offset[] = {64};
+  bound_set = {set.get(), offset};
+  bind_sets(state, sets);
+  EXPECT_EQ(state.stale, kStaleResources);
+  ASSERT_TRUE(refresh_blocks(state, arena));
+  EXPECT_NE(state.blocks.resources, before.resources);
+  EXPECT_EQ(state.blocks.resources->push_constants, before.resources->push_constants);
+  EXPECT_EQ(before.resources->sets[0], nullptr);  // what an earlier draw points to stays as it was
+  EXPECT_EQ(state.blocks.state, before.state);
+  EXPECT_EQ(state.blocks.bindings, before.bindings);
+
+  set_dynamic(state, state.dynamic.viewport, VkViewport{0, 0, 8, 8, 0, 1});
+  EXPECT_EQ(state.stale, kStaleState);
+  cmd::VertexBufferBinding buffer{nullptr, 4};
+  cmd::BindVertexBuffers buffers;
+  buffers.buffers = {&buffer, 1};
+  bind_vertex_buffers(state, buffers);
+  EXPECT_EQ(state.stale, kStaleState | kStaleVertexInput);
+}
+
+TEST_F(Flattening, PipelinesWithTheSameLayoutsKeepTheBindings) {
+  ASSERT_TRUE(refresh_blocks(state, arena));
+  auto other = make_object<Pipeline>(HostMemory(), VK_SYSTEM_ALLOCATION_SCOPE_OBJECT);
+  other->resources = pipeline->resources;
+  bind_pipeline(state, *other);
+  EXPECT_EQ(state.stale, kStaleState);
+  pipeline->graphics.binding_count = 1;
+  bind_pipeline(state, *pipeline);
+  EXPECT_EQ(state.stale, kStaleState | kStaleVertexInput);
+  other->graphics.binding_count = 1;
+  other->resources.dynamic_total = 0;
+  bind_pipeline(state, *other);
+  EXPECT_EQ(state.stale, kStaleState | kStaleVertexInput | kStaleResources);
+}
+
+TEST_F(Flattening, PushConstantsKeepWhatWasPushedBefore) {
+  const uint32_t first[] = {1, 2}, second[] = {3};
+  cmd::PushConstants push;
+  push.values = std::as_bytes(std::span(first));
+  push_constants(state, push);
+  ASSERT_TRUE(refresh_blocks(state, arena));
+  const ResourceTable& before = *state.blocks.resources;
+  push_constants(state, push);
+  EXPECT_EQ(state.stale, 0u);
+  push.offset = 4;
+  push.values = std::as_bytes(std::span(second));
+  push_constants(state, push);
+  ASSERT_TRUE(refresh_blocks(state, arena));
+  const auto word = [](const ResourceTable& table, size_t i) {
+    uint32_t value;
+    std::memcpy(&value, table.push_constants + 4 * i, 4);
+    return value;
+  };
+  ASSERT_GE(before.push_constant_bytes, 8u);
+  EXPECT_EQ(word(before, 1), 2u);
+  EXPECT_EQ(word(*state.blocks.resources, 0), 1u);
+  EXPECT_EQ(word(*state.blocks.resources, 1), 3u);
 }
 
 }  // namespace

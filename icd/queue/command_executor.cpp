@@ -6,7 +6,7 @@
 namespace lapilli {
 namespace {
 
-constexpr size_t kArenaLimit = size_t{1} << 30;  // bytes; only dynamic offsets lie in it
+constexpr size_t kArenaLimit = size_t{1} << 30;  // bytes
 
 template <class C>
 void execute_as(CommandExecutor& executor, const Command& command) {
@@ -114,6 +114,11 @@ VkResult CommandExecutor::run(const CommandBuffer& buffer) {
   execute_commands(*this, buffer);
   labels.clear();
   return result;
+}
+
+void CommandExecutor::drop_blocks() {
+  arena.reset();
+  state.stale = kStaleAll;
 }
 
 void CommandExecutor::start(ExecutionLimits& limits) const {

@@ -17,14 +17,16 @@ struct CommandExecutor {
   Renderer renderer;
   BoundState state;
   PassState pass;
-  Arena arena;                               // lives until the draws or the dispatch that use it are done
+  Arena arena;                               // of the blocks of draws, until these are rendered
   uint64_t* samples_passed = nullptr;        // of the active occlusion query
   std::vector<VkDebugUtilsLabelEXT> labels;  // open in the command buffer
   VkResult result = VK_SUCCESS;              // the first failure; nothing is executed after it
 
   // A command buffer from its beginning to its end; bound state starts anew.
   VkResult run(const CommandBuffer& buffer);
-  // Of one call into the interpreter.
+  // Frees the blocks of draws: those that come make new ones.
+  void drop_blocks();
+  // Of one call of the renderer or of one dispatch.
   void start(ExecutionLimits& limits) const;
   void fail(VkResult code, const char* what);
 };

@@ -20,21 +20,28 @@ bool fits_subpass(const GraphicsPart& pipeline, const PassState& pass) {
   return pipeline.depth_format == VK_FORMAT_UNDEFINED || pass.pass->format_of(subpass.depth) == pipeline.depth_format;
 }
 
-// The draw with everything bound, its counts still to be filled in; null if it can have no effect.
-DrawCall* add_draw(CommandExecutor& executor, uint32_t count, uint32_t instances) {
+// Brings the blocks up to date with what is bound; false if a draw with that can have no effect.
+bool prepare_draws(CommandExecutor& executor) {
   const Pipeline* pipeline = executor.state.graphics.pipeline;
-  if (executor.pass.pass == nullptr || pipeline == nullptr || count == 0 || instances == 0) return nullptr;
+  if (executor.pass.pass == nullptr || pipeline == nullptr) return false;
   // No shader stores (the feature vertexPipelineStoresAndAtomics is not offered), so that nothing is left to do.
-  if (pipeline->graphics.rasterizer_discard) return nullptr;
+  if (pipeline->graphics.rasterizer_discard) return false;
   if (!fits_subpass(pipeline->graphics, executor.pass)) {
     log_error("a draw with a pipeline for other attachments than the subpass has");
-    return nullptr;
+    return false;
   }
-  DrawCall& draw = executor.pass.draws.emplace_back();
-  if (!flatten_draw(executor.state, executor.arena, draw)) {
-    executor.fail(VK_ERROR_OUT_OF_HOST_MEMORY, "out of memory for a draw");
-    return nullptr;
-  }
+  if (refresh_blocks(executor.state, executor.arena)) return true;
+  executor.fail(VK_ERROR_OUT_OF_HOST_MEMORY, "out of memory for a draw");
+  return false;
+}
+
+// The draw with everything bound, its counts still to be filled in; null if it can have no effect.
+DrawCall* add_draw(CommandExecutor& executor, uint32_t count, uint32_t instances) {
+  if (count == 0 || instances == 0) return nullptr;
+  if (executor.pass.draws.size() == kMaxDraws) flush_pass(executor, false);
+  // Nothing is stale: the draw before was prepared in the same subpass with the same state.
+  if (executor.state.stale != 0 && !prepare_draws(executor)) return nullptr;
+  DrawCall& draw = executor.pass.draws.emplace_back(executor.state.blocks);
   draw.count = count;
   draw.instance_count = instances;
   draw.samples_passed = executor.samples_passed;
@@ -49,16 +56,12 @@ void draw(CommandExecutor& executor, const VkDrawIndirectCommand& command) {
 }
 
 void draw(CommandExecutor& executor, const VkDrawIndexedIndirectCommand& command) {
-  static constexpr std::byte kNoIndices[4] = {};
   DrawCall* call = add_draw(executor, command.indexCount, command.instanceCount);
   if (call == nullptr) return;
   call->first = command.firstIndex;
   call->vertex_offset = command.vertexOffset;
   call->first_instance = command.firstInstance;
-  BufferMemory bytes;
-  if (executor.state.index_buffer != nullptr) bytes = executor.state.index_buffer->bytes(executor.state.index_offset);
-  // Without a buffer all indices are outside of it and read as 0.
-  call->indices = {bytes.data != nullptr ? bytes.data : kNoIndices, bytes.size, executor.state.index_type};
+  call->indices = executor.state.indices;
 }
 
 // Reads one structure of an indirect command; false if it does not lie in the buffer.
@@ -95,7 +98,7 @@ void run_compute(CommandExecutor& executor, const uint32_t groups[3]) {
                     dispatch(executor.pool, pipeline->compute, resources, groups, &limits);
   if (!done) executor.fail(VK_ERROR_OUT_OF_HOST_MEMORY, "out of memory for a dispatch");
   if (limits.expired) executor.fail(VK_ERROR_DEVICE_LOST, "a compute shader ran past the time limit");
-  if (executor.pass.pass == nullptr) executor.arena.reset();
+  if (executor.pass.pass == nullptr) executor.drop_blocks();
 }
 
 }  // namespace

@@ -109,12 +109,14 @@ void flush_pass(CommandExecutor& executor, bool end_of_subpass) {
   pass.draws.clear();
   for (const auto& [pool, query] : pass.ended_queries) pool->make_available(query);
   pass.ended_queries.clear();
-  executor.arena.reset();
+  executor.drop_blocks();
 }
 
 void execute(CommandExecutor& executor, const cmd::BeginRenderPass& command) {
   PassState& pass = executor.pass;
   pass.pass = nullptr;
+  pass.draws.clear();
+  executor.drop_blocks();
   if (!fits(*command.pass, *command.framebuffer)) return log_error("the framebuffer does not fit the render pass");
   pass.pass = command.pass;
   pass.framebuffer = command.framebuffer;
@@ -122,7 +124,6 @@ void execute(CommandExecutor& executor, const cmd::BeginRenderPass& command) {
   pass.clear_values = command.clear_values;
   pass.subpass = 0;
   pass.loaded.assign(command.pass->attachments.size(), false);
-  pass.draws.clear();
   begin_subpass(pass);
 }
 

@@ -30,7 +30,8 @@ struct ResourceTable {
   const Descriptor* sets[kMaxDescriptorSets] =
       {};                                     // all descriptors of a set, in binding order; null where nothing is bound
   const uint32_t* dynamic_offsets = nullptr;  // bytes; indexed by BindingSlot::dynamic_offset
-  alignas(16) std::byte push_constants[kMaxPushConstantBytes] = {};
+  const std::byte* push_constants = nullptr;
+  uint32_t push_constant_bytes = 0;  // those beyond read as 0
 };
 
 // One binding of a pipeline layout.

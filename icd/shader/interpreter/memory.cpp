@@ -169,7 +169,8 @@ struct op_load_uniform {
 
 struct op_load_push {
   static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
-    broadcast_words(frame->resources->push_constants, kMaxPushConstantBytes, op->imm2, op->c, reg_out(frame, op->dst));
+    const ResourceTable& resources = *frame->resources;
+    broadcast_words(resources.push_constants, resources.push_constant_bytes, op->imm2, op->c, reg_out(frame, op->dst));
     return op + 1;
   }
 };
@@ -180,7 +181,8 @@ struct op_load_push_indexed {
     uint32_t* const d = reg_out(frame, op->dst);
     clear_idle_lanes(frame, op->dst, op->c);
     // Read only.
-    const BufferRange push = {const_cast<std::byte*>(frame->resources->push_constants), kMaxPushConstantBytes};
+    const ResourceTable& resources = *frame->resources;
+    const BufferRange push = {const_cast<std::byte*>(resources.push_constants), resources.push_constant_bytes};
     if (frame->exec != 0) load_words(push, addresses, op->imm2, op->c, frame->exec, d);
     return op + 1;
   }

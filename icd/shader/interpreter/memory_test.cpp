@@ -23,6 +23,7 @@ struct MemoryTest {
   ResourceRef ref;
   BufferRange first;
   uint32_t dynamic_offsets[3] = {16, 0, 0};
+  std::byte push_constants[kMaxPushConstantBytes];
 
   explicit MemoryTest(SimdTarget target) : frame(target) {
     for (uint32_t i = 0; i < kWords; ++i) words[i] = 1000 + i;
@@ -30,7 +31,9 @@ struct MemoryTest {
     descriptors[0] = {data, sizeof words, sizeof words, nullptr, nullptr};
     descriptors[1] = {data, sizeof words / 2, sizeof words, nullptr, nullptr};
     table.sets[1] = descriptors.data();
-    for (uint32_t i = 0; i < kMaxPushConstantBytes; ++i) table.push_constants[i] = static_cast<std::byte>(i);
+    for (uint32_t i = 0; i < kMaxPushConstantBytes; ++i) push_constants[i] = static_cast<std::byte>(i);
+    table.push_constants = push_constants;
+    table.push_constant_bytes = kMaxPushConstantBytes;
     ref.set = 1;
     ref.count = 3;
     bind();

@@ -237,7 +237,8 @@ void check_program(uint32_t seed) {
     descriptor.size = descriptor.room = written.size();
     ResourceTable resources;
     resources.sets[0] = &descriptor;
-    std::copy(input.push_constants.begin(), input.push_constants.end(), resources.push_constants);
+    resources.push_constants = input.push_constants.data();
+    resources.push_constant_bytes = static_cast<uint32_t>(input.push_constants.size());
     Execution execution;
     ASSERT_TRUE(execution.prepare(**program, resources, nullptr));
     alignas(64) float outputs[kOutputs][64] = {};

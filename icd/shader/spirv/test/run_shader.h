@@ -55,7 +55,8 @@ class ComputeRun {
     ASSERT_TRUE(program.ok()) << program.error().message;
     ResourceTable table;
     table.sets[0] = descriptors_.data();
-    std::memcpy(table.push_constants, push.data(), push.size());
+    table.push_constants = push.data();
+    table.push_constant_bytes = static_cast<uint32_t>(push.size());
     Execution execution;
     ExecutionLimits limits;
     ASSERT_TRUE(execution.prepare(**program, table, &limits));
