@@ -4,6 +4,7 @@
 //   F, I, U   vectors of kVectorLanes floats, signed and unsigned integers (4, 8 or 16 lanes)
 //   M         one condition per lane;  D  as many doubles as F has floats
 //   load<F>(p), store(v, p)   aligned to the vector; load_unaligned<F>, store_unaligned; load_d, store_d for doubles
+//   load_interleaved<n>(p, words), store_interleaved<n>(words, p)  n vectors whose lanes take turns in memory
 //   broadcast(x)              by the type of x: 1.0f, 1, 1u, 1.0
 //   as_f, as_i, as_u          bit casts
 //   + - * /                   F and D, correctly rounded; + - * & | ^ ~ wrap on I and U; & | ^ ~ and and_not(a, b) on M
@@ -21,6 +22,7 @@
 //   gather32(base, byte_offsets, m)  32-bit values at base + offset (below 2^31, any alignment), 0 where m is not set
 //   swap_columns, swap_rows   of U, within each 2x2 quad of lanes
 //   canonical(f)              every NaN as 0x7FC00000
+//   first_lane(u)             lane 0 as a number
 #if defined(LAPILLI_BASE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAPILLI_BASE_LANES_INL_H
 #undef LAPILLI_BASE_LANES_INL_H

@@ -70,6 +70,24 @@ HWY_API void store_unaligned(V v, void* p) {
   using Tag = typename LaneTag<V>::Type;
   hn::StoreU(v, Tag(), static_cast<hn::TFromD<Tag>*>(p));
 }
+// Word w of lane i lies at 4 * (kWords * i + w); any alignment.
+template <size_t kWords>
+HWY_API void load_interleaved(const void* p, U* words) {
+  const auto* from = static_cast<const uint32_t*>(p);
+  if constexpr (kWords == 1) words[0] = hn::LoadU(UTag(), from);
+  if constexpr (kWords == 2) hn::LoadInterleaved2(UTag(), from, words[0], words[1]);
+  if constexpr (kWords == 3) hn::LoadInterleaved3(UTag(), from, words[0], words[1], words[2]);
+  if constexpr (kWords == 4) hn::LoadInterleaved4(UTag(), from, words[0], words[1], words[2], words[3]);
+}
+template <size_t kWords>
+HWY_API void store_interleaved(const U* words, void* p) {
+  auto* to = static_cast<uint32_t*>(p);
+  if constexpr (kWords == 1) hn::StoreU(words[0], UTag(), to);
+  if constexpr (kWords == 2) hn::StoreInterleaved2(words[0], words[1], UTag(), to);
+  if constexpr (kWords == 3) hn::StoreInterleaved3(words[0], words[1], words[2], UTag(), to);
+  if constexpr (kWords == 4) hn::StoreInterleaved4(words[0], words[1], words[2], words[3], UTag(), to);
+}
+HWY_API uint32_t first_lane(U v) { return hn::GetLane(v); }
 HWY_API F broadcast(float x) { return hn::Set(FTag(), x); }
 HWY_API I broadcast(int32_t x) { return hn::Set(ITag(), x); }
 HWY_API U broadcast(uint32_t x) { return hn::Set(UTag(), x); }

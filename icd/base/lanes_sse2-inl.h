@@ -56,6 +56,33 @@ template <class V>
 HWY_API void store_unaligned(V v, void* p) {
   _mm_storeu_si128(static_cast<__m128i*>(p), raw_integer(v));
 }
+template <size_t kWords>
+HWY_API void load_interleaved(const void* p, U* words) {
+  if constexpr (kWords == 1) {
+    words[0] = load_unaligned<U>(p);
+  } else {
+    alignas(16) uint32_t lanes[kWords][kVectorLanes];
+    const auto* from = static_cast<const char*>(p);
+    for (int lane = 0; lane < kVectorLanes; ++lane) {
+      for (size_t w = 0; w < kWords; ++w, from += 4) __builtin_memcpy(&lanes[w][lane], from, 4);
+    }
+    for (size_t w = 0; w < kWords; ++w) words[w] = load<U>(lanes[w]);
+  }
+}
+template <size_t kWords>
+HWY_API void store_interleaved(const U* words, void* p) {
+  if constexpr (kWords == 1) {
+    store_unaligned(words[0], p);
+  } else {
+    alignas(16) uint32_t lanes[kWords][kVectorLanes];
+    for (size_t w = 0; w < kWords; ++w) store(words[w], lanes[w]);
+    auto* to = static_cast<char*>(p);
+    for (int lane = 0; lane < kVectorLanes; ++lane) {
+      for (size_t w = 0; w < kWords; ++w, to += 4) __builtin_memcpy(to, &lanes[w][lane], 4);
+    }
+  }
+}
+HWY_API uint32_t first_lane(U v) { return static_cast<uint32_t>(_mm_cvtsi128_si32(v.raw)); }
 HWY_API F broadcast(float x) { return {_mm_set1_ps(x)}; }
 HWY_API I broadcast(int32_t x) { return {_mm_set1_epi32(x)}; }
 HWY_API U broadcast(uint32_t x) { return {_mm_set1_epi32(static_cast<int32_t>(x))}; }

@@ -55,7 +55,7 @@ void sample(benchmark::State& state, VkFormat format, VkFilter filter, VkSampler
   state.counters["lanes/s"] = benchmark::Counter(64.0, benchmark::Counter::kIsIterationInvariantRate);
 }
 
-void store_and_load(benchmark::State& state, VkFormat format) {
+void store_and_load(benchmark::State& state, VkFormat format, bool whole_block) {
   if (!choose(state)) return;
   const TexelFunctions& functions = texel_functions(*find_format(format));
   std::vector<std::byte> plane(kTileTexels * 16);
@@ -63,10 +63,11 @@ void store_and_load(benchmark::State& state, VkFormat format) {
   move_batch(batch, 0);
   for (auto& reg : batch.rgba) std::copy(batch.u, batch.u + 64, reg);
   uint16_t quads[16];
-  for (uint16_t q = 0; q < 16; ++q) quads[q] = static_cast<uint16_t>(q * 32);
+  for (uint16_t q = 0; q < 16; ++q) quads[q] = static_cast<uint16_t>(whole_block ? q : q * 32);
+  const QuadPlaces places = {quads, whole_block};
   for (auto _ : state) {
-    functions.store_quads(plane.data(), quads, ~uint64_t{0}, batch.in, 15);
-    functions.load_quads(plane.data(), quads, ~uint64_t{0}, batch.out);
+    functions.store_quads(plane.data(), places, ~uint64_t{0}, batch.in, 15);
+    functions.load_quads(plane.data(), places, ~uint64_t{0}, batch.out);
   }
 }
 
@@ -93,9 +94,12 @@ BENCHMARK_CAPTURE(sample, rgba8_linear_to_edge, VK_FORMAT_R8G8B8A8_UNORM, VK_FIL
 BENCHMARK_CAPTURE(sample, rgba8_linear_mirror, VK_FORMAT_R8G8B8A8_UNORM, VK_FILTER_LINEAR, kMirror)->DenseRange(0, 2);
 BENCHMARK_CAPTURE(sample, rgba8_nearest, VK_FORMAT_R8G8B8A8_UNORM, VK_FILTER_NEAREST, kRepeat)->DenseRange(0, 2);
 BENCHMARK_CAPTURE(sample, rgba32f_linear, VK_FORMAT_R32G32B32A32_SFLOAT, VK_FILTER_LINEAR, kRepeat)->DenseRange(0, 2);
-BENCHMARK_CAPTURE(store_and_load, rgba8, VK_FORMAT_R8G8B8A8_UNORM)->DenseRange(0, 2);
-BENCHMARK_CAPTURE(store_and_load, rgba32f, VK_FORMAT_R32G32B32A32_SFLOAT)->DenseRange(0, 2);
-BENCHMARK_CAPTURE(store_and_load, depth, VK_FORMAT_D32_SFLOAT)->DenseRange(0, 2);
+BENCHMARK_CAPTURE(store_and_load, rgba8, VK_FORMAT_R8G8B8A8_UNORM, false)->DenseRange(0, 2);
+BENCHMARK_CAPTURE(store_and_load, rgba32f, VK_FORMAT_R32G32B32A32_SFLOAT, false)->DenseRange(0, 2);
+BENCHMARK_CAPTURE(store_and_load, depth, VK_FORMAT_D32_SFLOAT, false)->DenseRange(0, 2);
+BENCHMARK_CAPTURE(store_and_load, rgba8_block, VK_FORMAT_R8G8B8A8_UNORM, true)->DenseRange(0, 2);
+BENCHMARK_CAPTURE(store_and_load, rgba32f_block, VK_FORMAT_R32G32B32A32_SFLOAT, true)->DenseRange(0, 2);
+BENCHMARK_CAPTURE(store_and_load, depth_block, VK_FORMAT_D32_SFLOAT, true)->DenseRange(0, 2);
 BENCHMARK(move_tile)->Arg(4)->Arg(16);
 
 }  // namespace

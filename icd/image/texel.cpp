@@ -45,7 +45,8 @@ HWY_API void read_quad(const std::byte* texels, int quad, BatchWords<kWords>& wo
 }
 
 template <size_t kWords>
-void read_quads(const std::byte* plane, const uint16_t* quad_index, uint64_t lanes, BatchWords<kWords>& words) {
+void read_quads(const std::byte* plane, const QuadPlaces& places, uint64_t lanes, BatchWords<kWords>& words) {
+  const uint16_t* const quad_index = places.quad;
   constexpr size_t quad_bytes = 16 * kWords;
   const uint64_t live = live_quads(lanes);
   if (live == kOneLaneOfEachQuad) {
@@ -62,12 +63,12 @@ void read_quads(const std::byte* plane, const uint16_t* quad_index, uint64_t lan
 }
 
 template <size_t kWords>
-void write_quads(const BatchWords<kWords>& words, std::byte* plane, const uint16_t* quad_index, uint64_t lanes) {
+void write_quads(const BatchWords<kWords>& words, std::byte* plane, const QuadPlaces& places, uint64_t lanes) {
   constexpr size_t quad_bytes = 16 * kWords;
   for (int quad = 0; quad < kQuads; ++quad) {
     const uint32_t quad_lanes = lanes >> (quad * 4) & 15;
     if (quad_lanes == 0) continue;
-    std::byte* texels = plane + quad_index[quad] * quad_bytes;
+    std::byte* texels = plane + places.quad[quad] * quad_bytes;
     if (kWords == 1 && quad_lanes == 15) {
       std::memcpy(texels, &words.word[0][quad * 4], 16);
       continue;
@@ -85,34 +86,52 @@ HWY_API void store_components(const F* rgba, int vector, float* const registers[
   }
 }
 
+// Vector `vector` of a whole block, whose first texel is `block`.
+template <size_t kWords, class Byte>
+HWY_API Byte* vector_of_block(Byte* block, int vector) {
+  return block + static_cast<size_t>(vector * kVectorLanes) * 4 * kWords;
+}
+
 template <size_t kFormat>
-void load_quads(const std::byte* plane, const uint16_t* quad_index, uint64_t lanes, float* const registers[4]) {
+void load_quads(const std::byte* plane, const QuadPlaces& places, uint64_t lanes, float* const registers[4]) {
   using T = Texel<kFormat>;
   BatchWords<T::kWords> words;
-  read_quads<T::kWords>(plane, quad_index, lanes, words);
+  if (!places.whole_block) read_quads<T::kWords>(plane, places, lanes, words);
+  const std::byte* const block = plane + places.quad[0] * 16 * T::kWords;
   for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
     U texel[T::kWords];
-    for (size_t w = 0; w < T::kWords; ++w) texel[w] = load<U>(&words.word[w][vector * kVectorLanes]);
+    if (places.whole_block) {
+      load_interleaved<T::kWords>(vector_of_block<T::kWords>(block, vector), texel);
+    } else {
+      for (size_t w = 0; w < T::kWords; ++w) texel[w] = load<U>(&words.word[w][vector * kVectorLanes]);
+    }
     F rgba[4];
     T::decode(texel, rgba);
     store_components(rgba, vector, registers);
   }
 }
 
-// Takes the bits of `mask` from the new words, the others from the texels that are there.
-template <size_t kFormat>
-void keep_other_components(const std::byte* plane, const uint16_t* quad_index, uint64_t lanes, uint32_t components,
-                           BatchWords<Texel<kFormat>::kWords>& words) {
-  using T = Texel<kFormat>;
-  uint32_t mask[T::kWords] = {};
-  for (int c = 0; c < 4; ++c) {
-    const bool written = (components >> c & 1) != 0 && T::component(c).bits != 0;
-    if (written) mask[T::word_of(c)] |= T::mask_of_bits(c) << T::shift_of(c);
+// The bits of the texel that belong to `components`.
+template <class T>
+struct ComponentBits {
+  uint32_t word[T::kWords] = {};
+  bool all;
+  HWY_INLINE explicit ComponentBits(uint32_t components) {
+    uint32_t present = 0;
+    for (int c = 0; c < 4; ++c) {
+      if (T::component(c).bits == 0) continue;
+      present |= 1u << c;
+      if ((components >> c & 1) != 0) word[T::word_of(c)] |= T::mask_of_bits(c) << T::shift_of(c);
+    }
+    all = (components & present) == present;
   }
-  BatchWords<T::kWords> old;
-  read_quads<T::kWords>(plane, quad_index, lanes, old);
-  for (size_t w = 0; w < T::kWords; ++w) {
-    const U taken = broadcast(mask[w]);
+};
+
+// Takes the bits of the written components from the new words, the others from the texels that are there.
+template <size_t kWords>
+HWY_API void keep_other_components(const BatchWords<kWords>& old, const uint32_t* bits, BatchWords<kWords>& words) {
+  for (size_t w = 0; w < kWords; ++w) {
+    const U taken = broadcast(bits[w]);
     for (int lane = 0; lane < kLanes; lane += kVectorLanes) {
       const U mixed = (load<U>(&words.word[w][lane]) & taken) | and_not(taken, load<U>(&old.word[w][lane]));
       store(mixed, &words.word[w][lane]);
@@ -120,25 +139,54 @@ void keep_other_components(const std::byte* plane, const uint16_t* quad_index, u
   }
 }
 
+template <class T>
+HWY_API void encode_vector(const float* const registers[4], int vector, U* texel) {
+  F rgba[4];
+  for (int c = 0; c < 4; ++c) {
+    // A register that the format or the mask does not ask for may be null.
+    rgba[c] = registers[c] != nullptr ? load<F>(registers[c] + vector * kVectorLanes) : zero_f();
+  }
+  T::encode(rgba, texel);
+}
+
+template <class T>
+void store_block(std::byte* block, uint64_t lanes, const float* const registers[4], const ComponentBits<T>& bits) {
+  const bool everything = bits.all && lanes == ~uint64_t{0};
+  for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
+    std::byte* const texels = vector_of_block<T::kWords>(block, vector);
+    U texel[T::kWords];
+    encode_vector<T>(registers, vector, texel);
+    if (!everything) {
+      const U written = mask_to_u(mask_of(lanes, vector));
+      U old[T::kWords];
+      load_interleaved<T::kWords>(texels, old);
+      for (size_t w = 0; w < T::kWords; ++w) {
+        const U taken = written & broadcast(bits.word[w]);
+        texel[w] = (texel[w] & taken) | and_not(taken, old[w]);
+      }
+    }
+    store_interleaved<T::kWords>(texel, texels);
+  }
+}
+
 template <size_t kFormat>
-void store_quads(std::byte* plane, const uint16_t* quad_index, uint64_t lanes, const float* const registers[4],
+void store_quads(std::byte* plane, const QuadPlaces& places, uint64_t lanes, const float* const registers[4],
                  uint32_t components) {
   using T = Texel<kFormat>;
+  const ComponentBits<T> bits(components);
+  if (places.whole_block) return store_block<T>(plane + places.quad[0] * 16 * T::kWords, lanes, registers, bits);
   BatchWords<T::kWords> words;
   for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
-    F rgba[4];
-    for (int c = 0; c < 4; ++c) {
-      // A register that the format or the mask does not ask for may be null.
-      rgba[c] = registers[c] != nullptr ? load<F>(registers[c] + vector * kVectorLanes) : zero_f();
-    }
     U texel[T::kWords];
-    T::encode(rgba, texel);
+    encode_vector<T>(registers, vector, texel);
     for (size_t w = 0; w < T::kWords; ++w) store(texel[w], &words.word[w][vector * kVectorLanes]);
   }
-  uint32_t present = 0;
-  for (int c = 0; c < 4; ++c) present |= T::component(c).bits != 0 ? 1u << c : 0u;
-  if ((components & present) != present) keep_other_components<kFormat>(plane, quad_index, lanes, components, words);
-  write_quads<T::kWords>(words, plane, quad_index, lanes);
+  if (!bits.all) {
+    BatchWords<T::kWords> old;
+    read_quads<T::kWords>(plane, places, lanes, old);
+    keep_other_components(old, bits.word, words);
+  }
+  write_quads<T::kWords>(words, plane, places, lanes);
 }
 
 template <size_t kFormat>

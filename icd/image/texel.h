@@ -11,18 +11,24 @@
 
 namespace lapilli {
 
+// Where the quads of a batch lie in a plane (tile.h).
+struct QuadPlaces {
+  const uint16_t* quad;  // 16 of them; quad q holds texels 4q … 4q+3
+  // quad[i] is quad[0] + i, and all of them may be read: 64 texels in a row.
+  bool whole_block = false;
+};
+
 // Registers are 64 floats (or integers' bits), 64-byte aligned; a null register of a load is not written. Lane i is bit
-// i of `lanes`. Tile planes are quad-major (tile.h): lanes 4q … 4q+3 are the four texels of quad quad_index[q], which
-// is read only where one of its lanes is set.
+// i of `lanes`. Lanes 4q … 4q+3 are the four texels of places.quad[q], which is touched only where one of its lanes is
+// set (or in a whole block), and written in the lanes that are set only.
 //   UNORM: c / (2^b - 1), correctly rounded; stored: clamped to [0, 1], NaN as 0, times 2^b - 1, to the nearest
 //   integer, half to even. A NaN stored as a float becomes 0x7FC00000. Components that the format lacks load as 0,
 //   alpha as 1.
 struct TexelFunctions {
   // Lanes outside of `lanes` get some value.
-  void (*load_quads)(const std::byte* plane, const uint16_t* quad_index, uint64_t lanes, float* const registers[4]);
-  // Writes the components whose bit is set in `components` (1 R, 2 G, 4 B, 8 A), in the lanes of `lanes`, and no other
-  // byte.
-  void (*store_quads)(std::byte* plane, const uint16_t* quad_index, uint64_t lanes, const float* const registers[4],
+  void (*load_quads)(const std::byte* plane, const QuadPlaces& places, uint64_t lanes, float* const registers[4]);
+  // Changes the components whose bit is set in `components` (1 R, 2 G, 4 B, 8 A), in the lanes of `lanes`.
+  void (*store_quads)(std::byte* plane, const QuadPlaces& places, uint64_t lanes, const float* const registers[4],
                       uint32_t components);
   // Texels at base + byte_offsets[lane] (below 2^31, any alignment). Other lanes: 0 0 0 1, and their memory is not
   // touched.

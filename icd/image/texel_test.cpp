@@ -27,10 +27,14 @@ struct Registers {
 
 struct QuadIndices {
   uint16_t index[16];
-  explicit QuadIndices(uint32_t first = 0, uint32_t step = 1) {
+  bool whole_block;
+  explicit QuadIndices(uint32_t first = 0, uint32_t step = 1, bool block = false) : whole_block(block) {
     for (uint32_t q = 0; q < 16; ++q) index[q] = static_cast<uint16_t>(first + q * step);
   }
+  QuadPlaces places() const { return {index, whole_block}; }
 };
+// A block of the plane, as one.
+QuadIndices block(uint32_t number) { return QuadIndices(number * 16, 1, true); }
 
 uint32_t bits(float value) { return std::bit_cast<uint32_t>(value); }
 
@@ -52,7 +56,7 @@ TEST_P(Texels, Unorm8DecodesToTheQuotient) {
     const auto* plane = reinterpret_cast<const std::byte*>(texels.data());
     for (VkFormat format : {VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_B8G8R8A8_UNORM}) {
       Registers out;
-      functions(format).load_quads(plane, QuadIndices().index, kAll, out.pointers);
+      functions(format).load_quads(plane, QuadIndices().places(), kAll, out.pointers);
       for (uint32_t lane = 0; lane < 64; ++lane) {
         for (uint32_t c = 0; c < 4; ++c) {
           const bool swapped = format == VK_FORMAT_B8G8R8A8_UNORM && c != 1 && c != 3;
@@ -78,7 +82,7 @@ void expect_encoded(const TexelFunctions& functions, const std::vector<float>& v
       for (size_t c = 0; c < 4; ++c) in.value[c][lane ^ c] = value;
     }
     uint8_t texels[256];
-    functions.store_quads(reinterpret_cast<std::byte*>(texels), QuadIndices().index, kAll, in.const_pointers, 15);
+    functions.store_quads(reinterpret_cast<std::byte*>(texels), QuadIndices().places(), kAll, in.const_pointers, 15);
     for (size_t lane = 0; lane < 64; ++lane) {
       for (size_t c = 0; c < 4; ++c) {
         ASSERT_EQ(texels[lane * 4 + c], unorm8_of(in.value[c][lane])) << in.value[c][lane] << " component " << c;
@@ -111,9 +115,9 @@ TEST_P(Texels, Unorm8KeepsEveryCode) {
     for (VkFormat format : {VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_B8G8R8A8_UNORM}) {
       Registers registers;
       const auto* plane = reinterpret_cast<const std::byte*>(texels);
-      functions(format).load_quads(plane, QuadIndices().index, kAll, registers.pointers);
+      functions(format).load_quads(plane, QuadIndices().places(), kAll, registers.pointers);
       uint8_t again[256] = {};
-      functions(format).store_quads(reinterpret_cast<std::byte*>(again), QuadIndices().index, kAll,
+      functions(format).store_quads(reinterpret_cast<std::byte*>(again), QuadIndices().places(), kAll,
                                     registers.const_pointers, 15);
       EXPECT_EQ(std::memcmp(texels, again, 256), 0);
     }
@@ -137,35 +141,36 @@ std::vector<uint64_t> masks() {
 }
 
 TEST_P(Texels, StoreWritesOnlyItsLanesAndComponents) {
-  for (VkFormat format :
-       {VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_D32_SFLOAT}) {
-    const FormatInfo& info = *find_format(format);
-    const size_t size = info.texel_size;
-    const std::vector<std::byte> before = random_bytes(kTileTexels * size, 7);
-    const QuadIndices quads(1023, -67u);  // 1023, 956, …, 18
-    Registers in;
-    std::mt19937 random(8);
-    for (auto& reg : in.value) {
-      for (float& value : reg) value = static_cast<float>(random() % 256) / 255.0f;
-    }
-    // What a store of everything writes, alone.
-    std::vector<std::byte> full = before;
-    functions(format).store_quads(full.data(), quads.index, kAll, in.const_pointers, 15);
-    for (uint64_t mask : masks()) {
-      for (uint32_t components = 0; components < 16; ++components) {
-        std::vector<std::byte> plane = before;
-        functions(format).store_quads(plane.data(), quads.index, mask, in.const_pointers, components);
-        std::vector<std::byte> expected = before;
-        for (uint32_t lane = 0; lane < 64; ++lane) {
-          if ((mask >> lane & 1) == 0) continue;
-          const size_t texel = (quads.index[lane / 4] * size_t{4} + lane % 4) * size;
-          for (uint32_t c = 0; c < 4; ++c) {
-            if ((components >> c & 1) == 0) continue;
-            const size_t first = texel + info.components[c].first_bit / 8;  // whole bytes in these formats
-            for (size_t byte = first; byte < first + info.components[c].bits / 8; ++byte) expected[byte] = full[byte];
+  for (const QuadIndices& quads : {QuadIndices(1023, -67u), block(5)}) {  // 1023, 956, …, 18
+    for (VkFormat format :
+         {VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_D32_SFLOAT}) {
+      const FormatInfo& info = *find_format(format);
+      const size_t size = info.texel_size;
+      const std::vector<std::byte> before = random_bytes(kTileTexels * size, 7);
+      Registers in;
+      std::mt19937 random(8);
+      for (auto& reg : in.value) {
+        for (float& value : reg) value = static_cast<float>(random() % 256) / 255.0f;
+      }
+      // What a store of everything writes, alone.
+      std::vector<std::byte> full = before;
+      functions(format).store_quads(full.data(), quads.places(), kAll, in.const_pointers, 15);
+      for (uint64_t mask : masks()) {
+        for (uint32_t components = 0; components < 16; ++components) {
+          std::vector<std::byte> plane = before;
+          functions(format).store_quads(plane.data(), quads.places(), mask, in.const_pointers, components);
+          std::vector<std::byte> expected = before;
+          for (uint32_t lane = 0; lane < 64; ++lane) {
+            if ((mask >> lane & 1) == 0) continue;
+            const size_t texel = (quads.index[lane / 4] * size_t{4} + lane % 4) * size;
+            for (uint32_t c = 0; c < 4; ++c) {
+              if ((components >> c & 1) == 0) continue;
+              const size_t first = texel + info.components[c].first_bit / 8;  // whole bytes in these formats
+              for (size_t byte = first; byte < first + info.components[c].bits / 8; ++byte) expected[byte] = full[byte];
+            }
           }
+          ASSERT_EQ(plane, expected) << info.name << " lanes " << mask << " components " << components;
         }
-        ASSERT_EQ(plane, expected) << info.name << " lanes " << mask << " components " << components;
       }
     }
   }
@@ -175,21 +180,40 @@ TEST_P(Texels, FloatsKeepTheirBitsAndNansBecomeCanonical) {
   const float special[8] = {-0.0f,      1e-45f, -1e38f, kInfinity,
                             -kInfinity, kNan,   -kNan,  std::bit_cast<float>(0x7F800001u)};
   for (VkFormat format : {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_D32_SFLOAT}) {
-    const uint32_t count = format == VK_FORMAT_D32_SFLOAT ? 1 : 4;
-    Registers in;
-    for (uint32_t c = 0; c < 4; ++c) {
-      for (uint32_t lane = 0; lane < 64; ++lane) in.value[c][lane] = special[(lane + 3 * c) % 8];
-    }
-    std::vector<std::byte> plane(kTileTexels * 16);
-    const QuadIndices quads(3, 5);
-    functions(format).store_quads(plane.data(), quads.index, kAll, in.const_pointers, 15);
-    Registers out;
-    functions(format).load_quads(plane.data(), quads.index, kAll, out.pointers);
-    for (uint32_t lane = 0; lane < 64; ++lane) {
+    for (const QuadIndices& quads : {QuadIndices(3, 5), block(63)}) {
+      const uint32_t count = format == VK_FORMAT_D32_SFLOAT ? 1 : 4;
+      Registers in;
       for (uint32_t c = 0; c < 4; ++c) {
-        const uint32_t stored = std::isnan(in.value[c][lane]) ? 0x7FC00000u : bits(in.value[c][lane]);
-        EXPECT_EQ(bits(out.value[c][lane]), c < count ? stored : c < 3 ? 0 : bits(1.0f));
+        for (uint32_t lane = 0; lane < 64; ++lane) in.value[c][lane] = special[(lane + 3 * c) % 8];
       }
+      std::vector<std::byte> plane(kTileTexels * 16);
+      functions(format).store_quads(plane.data(), quads.places(), kAll, in.const_pointers, 15);
+      Registers out;
+      functions(format).load_quads(plane.data(), quads.places(), kAll, out.pointers);
+      for (uint32_t lane = 0; lane < 64; ++lane) {
+        for (uint32_t c = 0; c < 4; ++c) {
+          const uint32_t stored = std::isnan(in.value[c][lane]) ? 0x7FC00000u : bits(in.value[c][lane]);
+          EXPECT_EQ(bits(out.value[c][lane]), c < count ? stored : c < 3 ? 0 : bits(1.0f));
+        }
+      }
+    }
+  }
+}
+
+// R32G32 is no format of an attachment, but has two words.
+TEST_P(Texels, LoadsAndStoresOfABlockAreThoseOfItsQuads) {
+  for (const FormatInfo& info : kFormats) {
+    const std::vector<std::byte> before = random_bytes(kTileTexels * info.texel_size, 20);
+    for (uint64_t mask : masks()) {
+      Registers by_quads, by_block;
+      std::vector<std::byte> plane = before, block_plane = before;
+      const TexelFunctions& f = functions(info.format);
+      f.load_quads(plane.data(), QuadIndices(32).places(), kAll, by_quads.pointers);
+      f.load_quads(plane.data(), block(2).places(), mask, by_block.pointers);
+      ASSERT_EQ(std::memcmp(by_quads.value, by_block.value, sizeof by_block.value), 0) << info.name;
+      f.store_quads(plane.data(), QuadIndices(16).places(), mask, by_quads.const_pointers, 15);
+      f.store_quads(block_plane.data(), block(1).places(), mask, by_quads.const_pointers, 15);
+      ASSERT_EQ(plane, block_plane) << info.name << " lanes " << mask;
     }
   }
 }
@@ -201,7 +225,7 @@ TEST_P(Texels, LoadTouchesOnlyLiveQuadsAndWantedRegisters) {
   const uint64_t lanes = 0x8421842184218421 & ~(uint64_t{15} << 20);
   Registers out;
   out.pointers[1] = nullptr;
-  functions(VK_FORMAT_R8G8B8A8_UNORM).load_quads(plane.data(), quads.index, lanes, out.pointers);
+  functions(VK_FORMAT_R8G8B8A8_UNORM).load_quads(plane.data(), quads.places(), lanes, out.pointers);
   for (uint32_t lane = 0; lane < 64; ++lane) {
     EXPECT_EQ(out.value[1][lane], 0.0f);
     if ((lanes >> lane & 1) == 0) continue;
@@ -255,7 +279,7 @@ TEST_P(Texels, ClearsPackLikeStores) {
         }
       }
       std::vector<std::byte> plane(64 * info.texel_size);
-      functions(format).store_quads(plane.data(), QuadIndices().index, kAll, in.const_pointers, 15);
+      functions(format).store_quads(plane.data(), QuadIndices().places(), kAll, in.const_pointers, 15);
       for (uint32_t lane = 0; lane < 64; ++lane) {
         VkClearValue clear = {};
         for (uint32_t c = 0; c < 4; ++c) clear.color.float32[c] = in.value[c][lane];

@@ -1,31 +1,45 @@
-// Tile copies: in a row of a tile, every second pair of texels in the plane belongs to the row.
+// Tile copies, block by block: in a row of a block, every second pair of texels in the plane belongs to the row.
 #include "image/tile.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstring>
 
 namespace lapilli {
 namespace {
 
-// Calls Move for the texels of each row: pairs where the row starts and ends at even pixels, single ones at odd ends.
-// Move<bytes>(texel of the image, texel of the plane).
+// Move<bytes>(texels of the image, texels of the plane), for pairs of texels. `image` is the block's first texel.
 template <uint32_t kTexelSize, class Move, class ImageByte, class PlaneByte>
-void for_each_run(ImageByte* image, uint64_t row_pitch, const TileArea& area, PlaneByte* plane, Move move) {
-  for (uint32_t y = area.y0; y < area.y1; ++y) {
-    ImageByte* row = image + row_pitch * y;
-    uint32_t x = area.x0;
-    if ((x & 1) != 0 && x < area.x1) {
-      move.template operator()<kTexelSize>(row + x * kTexelSize, plane + texel_in_plane(x, y) * kTexelSize);
-      ++x;
+void move_block(ImageByte* image, uint64_t row_pitch, PlaneByte* plane, Move move) {
+  constexpr uint32_t kPair = 2 * kTexelSize;
+  for (uint32_t quad_row = 0; quad_row < kBlockSize / 2; ++quad_row) {
+    ImageByte* const upper = image + 2 * quad_row * row_pitch;
+    ImageByte* const lower = upper + row_pitch;
+    for (uint32_t quad = 0; quad < kBlockSize / 2; ++quad, plane += 2 * kPair) {
+      move.template operator()<kPair>(upper + quad * kPair, plane);
+      move.template operator()<kPair>(lower + quad * kPair, plane + kPair);
     }
-    ImageByte* pair = row + x * kTexelSize;
-    PlaneByte* quad_half = plane + texel_in_plane(x, y) * kTexelSize;
-    for (; x + 1 < area.x1; x += 2) {
-      move.template operator()<2 * kTexelSize>(pair, quad_half);
-      pair += 2 * kTexelSize;
-      quad_half += 4 * kTexelSize;
+  }
+}
+
+template <uint32_t kTexelSize, class Move, class ImageByte, class PlaneByte>
+void move_blocks(ImageByte* image, uint64_t row_pitch, const TileArea& area, PlaneByte* plane, Move move) {
+  for (uint32_t y = area.y0; y < area.y1; y = (y | (kBlockSize - 1)) + 1) {
+    const uint32_t y1 = std::min((y | (kBlockSize - 1)) + 1, area.y1);
+    for (uint32_t x = area.x0; x < area.x1; x = (x | (kBlockSize - 1)) + 1) {
+      const uint32_t x1 = std::min((x | (kBlockSize - 1)) + 1, area.x1);
+      if (x1 - x == kBlockSize && y1 - y == kBlockSize) {
+        move_block<kTexelSize>(image + row_pitch * y + uint64_t{x} * kTexelSize, row_pitch,
+                               plane + texel_in_plane(x, y) * kTexelSize, move);
+        continue;
+      }
+      for (uint32_t py = y; py < y1; ++py) {
+        for (uint32_t px = x; px < x1; ++px) {
+          move.template operator()<kTexelSize>(image + row_pitch * py + uint64_t{px} * kTexelSize,
+                                               plane + texel_in_plane(px, py) * kTexelSize);
+        }
+      }
     }
-    if (x < area.x1) move.template operator()<kTexelSize>(pair, quad_half);
   }
 }
 
@@ -47,15 +61,15 @@ void move_tile(ImageByte* image, uint64_t row_pitch, uint32_t texel_size, const 
                Move move) {
   switch (texel_size) {
     case 1:
-      return for_each_run<1>(image, row_pitch, area, plane, move);
+      return move_blocks<1>(image, row_pitch, area, plane, move);
     case 2:
-      return for_each_run<2>(image, row_pitch, area, plane, move);
+      return move_blocks<2>(image, row_pitch, area, plane, move);
     case 4:
-      return for_each_run<4>(image, row_pitch, area, plane, move);
+      return move_blocks<4>(image, row_pitch, area, plane, move);
     case 8:
-      return for_each_run<8>(image, row_pitch, area, plane, move);
+      return move_blocks<8>(image, row_pitch, area, plane, move);
     case 16:
-      return for_each_run<16>(image, row_pitch, area, plane, move);
+      return move_blocks<16>(image, row_pitch, area, plane, move);
     default:
       assert(false && "attachments have texels of 1, 2, 4, 8 or 16 bytes");
   }

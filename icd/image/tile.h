@@ -1,6 +1,7 @@
 // The rasterizer's tile storage, and moving tiles between it and an image.
-// A tile is 64x64 pixels. A plane holds one attachment (and sample) of it in quad-major order: quad q = (y / 2) * 32 +
-// x / 2 is texels 4q .. 4q+3, which are (0,0) (1,0) (0,1) (1,1) of the quad.
+// A tile is 64x64 pixels. A plane holds one attachment (and sample) of it, block by block: the 8x8 blocks row by row,
+// in a block its 4x4 quads row by row, in a quad (0,0) (1,0) (0,1) (1,1). A block is 64 texels in a row, which are the
+// lanes of a batch.
 #pragma once
 
 #include <cstddef>
@@ -13,6 +14,10 @@ namespace lapilli {
 inline constexpr uint32_t kTileSize = 64;  // pixels
 inline constexpr uint32_t kTileTexels = kTileSize * kTileSize;
 inline constexpr uint32_t kTileQuads = kTileTexels / 4;
+inline constexpr uint32_t kBlockSize = 8;  // pixels a side
+inline constexpr uint32_t kBlockTexels = kBlockSize * kBlockSize;
+inline constexpr uint32_t kBlockQuads = kBlockTexels / 4;
+inline constexpr uint32_t kBlocksPerTile = kTileSize / kBlockSize;  // a side
 
 // Pixels x0 ≤ x < x1, y0 ≤ y < y1 of the image; all in one tile, whose origin is (x0, y0) rounded down to multiples
 // of 64.
@@ -25,8 +30,9 @@ struct TileArea {
 
 // Texel number of a pixel in its plane; pixel coordinates of the image or of the tile.
 constexpr uint32_t texel_in_plane(uint32_t x, uint32_t y) {
-  const uint32_t quad = (y % kTileSize / 2) * (kTileSize / 2) + x % kTileSize / 2;
-  return quad * 4 + (y & 1) * 2 + (x & 1);
+  const uint32_t block = y % kTileSize / kBlockSize * kBlocksPerTile + x % kTileSize / kBlockSize;
+  const uint32_t quad = y % kBlockSize / 2 * (kBlockSize / 2) + x % kBlockSize / 2;
+  return block * kBlockTexels + quad * 4 + (y & 1) * 2 + (x & 1);
 }
 
 // `image` is pixel (0, 0) of a row-major level, `plane` has kTileTexels * texel_size bytes. Only the pixels of the area

@@ -1,4 +1,4 @@
-// Tiles there and back at odd sizes, against the definition of the quad-major order.
+// Tiles there and back at odd sizes, against the definition of the block-major order.
 #include "image/tile.h"
 
 #include <gtest/gtest.h>
@@ -20,19 +20,21 @@ Bytes random_bytes(uint64_t size, uint32_t seed) {
   return bytes;
 }
 
-// Quads row by row, four texels each: counted out in order.
+// Blocks row by row, in them quads row by row, four texels each: counted out in order.
 std::vector<uint32_t> counted_order() {
   std::vector<uint32_t> texel_of_pixel(kTileTexels);
   uint32_t texel = 0;
-  for (uint32_t y = 0; y < 64; y += 2) {
-    for (uint32_t x = 0; x < 64; x += 2) {
+  for (uint32_t block = 0; block < 64; ++block) {
+    for (uint32_t quad = 0; quad < 16; ++quad) {
+      const uint32_t x = block % 8 * 8 + quad % 4 * 2;
+      const uint32_t y = block / 8 * 8 + quad / 4 * 2;
       for (uint32_t lane = 0; lane < 4; ++lane) texel_of_pixel[(y + lane / 2) * 64 + x + lane % 2] = texel++;
     }
   }
   return texel_of_pixel;
 }
 
-TEST(Tile, TexelInPlaneCountsQuadByQuad) {
+TEST(Tile, TexelInPlaneCountsBlockByBlock) {
   const std::vector<uint32_t> order = counted_order();
   for (uint32_t y = 0; y < 64; ++y) {
     for (uint32_t x = 0; x < 64; ++x) {
@@ -93,7 +95,8 @@ std::vector<Case> cases() {
     list.push_back({size, 128, 64, {65, 3, 100, 40}});  // render areas that start and end at odd pixels
     list.push_back({size, 128, 64, {65, 3, 66, 4}});
     list.push_back({size, 128, 64, {66, 2, 97, 63}});
-    list.push_back({size, 64, 64, {10, 10, 10, 20}});  // empty
+    list.push_back({size, 64, 64, {10, 10, 10, 20}});    // empty
+    list.push_back({size, 160, 80, {71, 65, 121, 79}});  // starts and ends one pixel beside a block
   }
   return list;
 }

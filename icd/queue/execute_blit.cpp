@@ -62,7 +62,7 @@ void Blit::row(int32_t line) const {
     operands.lanes = lanes;
     sampling.sample_2d(&source, &sampler, operands, registers);
     const float* const values[4] = {rgba[0], rgba[1], rgba[2], rgba[3]};
-    texels.store_quads(packed, kQuads, lanes, values, 0xF);
+    texels.store_quads(packed, {kQuads, true}, lanes, values, 0xF);
     std::byte* out =
         target + static_cast<uint64_t>(line) * row_pitch + static_cast<uint64_t>(first) * format->texel_size;
     std::memcpy(out, packed, size_t{count} * format->texel_size);
