@@ -1,7 +1,6 @@
 // Chunks of the bump allocator.
 #include "base/arena.h"
 
-#include <cassert>
 #include <cstdlib>
 #include <new>
 
@@ -39,23 +38,10 @@ Arena::Arena(std::size_t limit_bytes, std::size_t chunk_bytes, MemorySource& sou
 
 Arena::~Arena() { release(); }
 
-void* Arena::allocate(std::size_t bytes, std::size_t alignment) {
-  assert(alignment != 0 && (alignment & (alignment - 1)) == 0 && alignment <= kMaxAlignment);
+// At the beginning of the next kept chunk that is large enough, else of a new one.
+void* Arena::allocate_in_next_chunk(std::size_t bytes) {
   // Also keeps the sums below from overflowing.
   if (bytes > limit_bytes_) return nullptr;
-  std::size_t begin = aligned_up(offset_, alignment);
-  if (current_ == nullptr || begin > current_->bytes || bytes > current_->bytes - begin) {
-    if (!advance(bytes)) return nullptr;
-    begin = offset_;
-  }
-  used_bytes_ += begin + bytes - offset_;
-  offset_ = begin + bytes;
-  return reinterpret_cast<std::byte*>(current_) + begin;
-}
-
-// Makes current_ a chunk with room for `bytes` at its beginning: the next kept one that is large enough, else a new
-// one.
-bool Arena::advance(std::size_t bytes) {
   Chunk** link = current_ == nullptr ? &first_ : &current_->next;
   for (Chunk** candidate = link; *candidate != nullptr; candidate = &(*candidate)->next) {
     Chunk* chunk = *candidate;
@@ -64,32 +50,33 @@ bool Arena::advance(std::size_t bytes) {
     *candidate = chunk->next;
     chunk->next = *link;
     *link = chunk;
-    use(chunk);
-    return true;
+    return use(chunk, bytes);
   }
 
   const std::size_t room = limit_bytes_ - reserved_bytes_;
   const std::size_t least = aligned_up(bytes, kMaxAlignment) + kHeaderBytes;
-  if (least < bytes || least > room) return false;
+  if (least < bytes || least > room) return nullptr;
   std::size_t size = least > chunk_bytes_ ? least : chunk_bytes_;
   if (size > room) size = room;
   void* memory = source_.allocate(size, kMaxAlignment);
-  if (memory == nullptr) return false;
+  if (memory == nullptr) return nullptr;
   reserved_bytes_ += size;
   *link = new (memory) Chunk{*link, size};
-  use(*link);
-  return true;
+  return use(*link, bytes);
 }
 
-void Arena::use(Chunk* chunk) {
+void* Arena::use(Chunk* chunk, std::size_t bytes) {
+  const auto start = reinterpret_cast<std::uintptr_t>(chunk);
   current_ = chunk;
-  offset_ = kHeaderBytes;
+  next_ = start + kHeaderBytes + bytes;
+  end_ = start + chunk->bytes;
+  return reinterpret_cast<std::byte*>(chunk) + kHeaderBytes;
 }
 
 void Arena::reset() {
   current_ = nullptr;
-  offset_ = 0;
-  used_bytes_ = 0;
+  next_ = 1;
+  end_ = 0;
 }
 
 void Arena::release() {

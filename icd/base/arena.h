@@ -1,7 +1,9 @@
 // A bump allocator for what lives as long as a draw or a pass: memory comes in chunks, a reset keeps them.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <type_traits>
 
@@ -35,7 +37,13 @@ class Arena {
 
   // Uninitialized memory, or nullptr when the limit is reached or the source has none. alignment is a power of two up
   // to kMaxAlignment. A size of 0 gives a valid pointer.
-  void* allocate(std::size_t bytes, std::size_t alignment);
+  void* allocate(std::size_t bytes, std::size_t alignment) {
+    assert(alignment != 0 && (alignment & (alignment - 1)) == 0 && alignment <= kMaxAlignment);
+    const std::size_t begin = (next_ + alignment - 1) & ~(alignment - 1);
+    if (begin > end_ || bytes > end_ - begin) return allocate_in_next_chunk(bytes);
+    next_ = begin + bytes;
+    return reinterpret_cast<void*>(begin);
+  }
 
   template <class T>
   T* allocate_array(std::size_t count) {
@@ -49,7 +57,6 @@ class Arena {
   // Gives all memory back.
   void release();
 
-  std::size_t used_bytes() const { return used_bytes_; }          // handed out since the last reset, with padding
   std::size_t reserved_bytes() const { return reserved_bytes_; }  // taken from the source
 
  private:
@@ -58,16 +65,16 @@ class Arena {
     std::size_t bytes;  // header included
   };
 
-  bool advance(std::size_t bytes);
-  void use(Chunk* chunk);
+  void* allocate_in_next_chunk(std::size_t bytes);
+  void* use(Chunk* chunk, std::size_t bytes);
 
   MemorySource& source_;
   const std::size_t limit_bytes_;
   const std::size_t chunk_bytes_;
   Chunk* first_ = nullptr;
   Chunk* current_ = nullptr;
-  std::size_t offset_ = 0;  // of the free memory in current_
-  std::size_t used_bytes_ = 0;
+  // Addresses of the free memory in current_; without a chunk not even 0 bytes fit.
+  std::uintptr_t next_ = 1, end_ = 0;
   std::size_t reserved_bytes_ = 0;
 };
 

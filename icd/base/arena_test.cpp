@@ -62,7 +62,6 @@ TEST(Arena, ResetKeepsTheChunks) {
   void* first = nullptr;
   for (int round = 0; round < 10; ++round) {
     arena.reset();
-    EXPECT_EQ(arena.used_bytes(), 0u);
     void* block = arena.allocate(1000, 8);
     if (round == 0) first = block;
     EXPECT_EQ(block, first);

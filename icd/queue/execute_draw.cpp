@@ -20,16 +20,20 @@ bool fits_subpass(const GraphicsPart& pipeline, const PassState& pass) {
   return pipeline.depth_format == VK_FORMAT_UNDEFINED || pass.pass->format_of(subpass.depth) == pipeline.depth_format;
 }
 
-// Brings the blocks up to date with what is bound; false if a draw with that can have no effect.
-bool prepare_draws(CommandExecutor& executor) {
+// False if a draw with the bound pipeline can have no effect here.
+bool may_draw(const CommandExecutor& executor) {
   const Pipeline* pipeline = executor.state.graphics.pipeline;
   if (executor.pass.pass == nullptr || pipeline == nullptr) return false;
   // No shader stores (the feature vertexPipelineStoresAndAtomics is not offered), so that nothing is left to do.
   if (pipeline->graphics.rasterizer_discard) return false;
-  if (!fits_subpass(pipeline->graphics, executor.pass)) {
-    log_error("a draw with a pipeline for other attachments than the subpass has");
-    return false;
-  }
+  if (fits_subpass(pipeline->graphics, executor.pass)) return true;
+  log_error("a draw with a pipeline for other attachments than the subpass has");
+  return false;
+}
+
+// Brings the blocks up to date with what is bound; false if nothing is to be drawn with that.
+bool prepare_draws(CommandExecutor& executor) {
+  if ((executor.state.stale & kStaleState) != 0 && !may_draw(executor)) return false;
   if (refresh_blocks(executor.state, executor.arena)) return true;
   executor.fail(VK_ERROR_OUT_OF_HOST_MEMORY, "out of memory for a draw");
   return false;
