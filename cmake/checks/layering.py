@@ -25,7 +25,7 @@ ARROWS = {
 # These never see Vulkan handles: queue/ flattens the bound state for them.
 WITHOUT_HANDLES = ["base", "image", "shader", "geometry", "raster"]
 # The folders around the driver, which know it only through the loader.
-OUTSIDE = ["samples", "conformance"]
+OUTSIDE = ["samples", "conformance", "bench"]
 
 INTRINSICS = re.compile(r"^(\w*mmintrin\.h|x86intrin\.h|arm_(neon|sve)\.h)$")
 HIGHWAY = re.compile(r"^hwy/")

@@ -2,11 +2,10 @@
 // and if it crashes only it is gone. The parent tells it when to draw, so that drivers can take turns.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
-#include "common/target.h"
+#include "run/process.h"
 #include "scenes/renderer.h"
 
 namespace lapilli::run {
@@ -26,8 +25,6 @@ class Child {
   // Runs `program` (this executable) with nothing but the driver of `manifest`.
   Child(const std::string& program, const std::string& manifest, const ChildOptions& options);
   ~Child();
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
 
   // {"device", "subpixel_bits", "instance_device", "pipelines", "first_frame"}, times in ms; nothing if the child ended
   // before (how: ended()).
@@ -37,18 +34,11 @@ class Child {
   // Lets the child end and returns what it drew; nothing if it failed.
   std::optional<samples::Frame> finish();
   // "exit status 1", "signal 11" …
-  const std::string& ended() const { return ended_; }
+  const std::string& ended() const { return process_.ended(); }
 
  private:
-  std::optional<nlohmann::json> answer();
-  bool tell(const std::string& line);
-  void wait_for_end();
-
   ChildOptions options_;
-  int process_ = -1;
-  std::FILE* to_child_ = nullptr;
-  std::FILE* from_child_ = nullptr;
-  std::string ended_;
+  Process process_;
 };
 
 }  // namespace lapilli::run

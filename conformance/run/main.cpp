@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "run/child.h"
 #include "run/report.h"
@@ -17,53 +15,6 @@ namespace {
 using namespace lapilli::run;
 namespace samples = lapilli::samples;
 namespace fs = std::filesystem;
-
-// Short names by which the manifests of known drivers are recognized.
-std::string label_of(const std::string& manifest) {
-  const std::string file = fs::path(manifest).filename();
-  if (file.find("lapilli") != std::string::npos) return "Lapilli";
-  if (file.find("lvp") != std::string::npos) return "lavapipe";
-  if (file.find("swiftshader") != std::string::npos) return "SwiftShader";
-  return fs::path(manifest).stem().stem();
-}
-
-std::vector<std::string> manifests_from_environment() {
-  std::vector<std::string> manifests;
-  for (const char* name : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) {
-    const char* value = std::getenv(name);
-    if (value == nullptr || !manifests.empty()) continue;
-    std::istringstream list(value);
-    for (std::string manifest; std::getline(list, manifest, ':');) {
-      if (!manifest.empty()) manifests.push_back(manifest);
-    }
-  }
-  return manifests;
-}
-
-// Leaves out, and says so, what is not there.
-std::vector<Driver> drivers_of(const std::vector<std::string>& manifests) {
-  std::vector<Driver> drivers;
-  for (const std::string& manifest : manifests) {
-    if (fs::exists(manifest)) {
-      drivers.push_back({manifest, label_of(manifest)});
-    } else {
-      std::fprintf(stderr, "lapilli_run: %s is not there; going on without it\n", manifest.c_str());
-    }
-  }
-  for (const char* peer : {"lavapipe", "SwiftShader"}) {
-    const bool found = std::any_of(drivers.begin(), drivers.end(), [&](const Driver& d) { return d.label == peer; });
-    if (!found) std::fprintf(stderr, "lapilli_run: %s is not installed; going on without it\n", peer);
-  }
-  return drivers;
-}
-
-bool write_page(const fs::path& directory, const nlohmann::json& page) {
-  const fs::path data = directory / "results.json";
-  std::ofstream(data) << page.dump(1) << '\n';
-  const std::string command = std::string(LAPILLI_PYTHON " '" LAPILLI_PAGE_SCRIPT "' '") + data.string() + "' '" +
-                              (directory / "index.html").string() + "'";
-  return std::system(command.c_str()) == 0;
-}
 
 // Whether the first driver, the one this is about, drew something everywhere.
 bool first_driver_drew(const std::vector<SceneReport>& reports) {
@@ -75,7 +26,7 @@ bool first_driver_drew(const std::vector<SceneReport>& reports) {
 
 int run(const std::vector<std::string>& manifests, const std::vector<std::string>& only, const std::string& output,
         Plan plan) {
-  const std::vector<Driver> drivers = drivers_of(manifests);
+  const std::vector<Driver> drivers = drivers_of(manifests, "lapilli_run");
   if (drivers.empty()) {
     std::fprintf(stderr, "lapilli_run: no driver; name manifests with --icd or VK_DRIVER_FILES\n");
     return 1;
@@ -92,7 +43,9 @@ int run(const std::vector<std::string>& manifests, const std::vector<std::string
                                   measure(name, drivers, plan), output));
   }
   std::printf("%s", table(reports).c_str());
-  const bool page_written = write_page(output, page(reports, plan));
+  const std::string data = output + "/results.json";
+  std::ofstream(data) << page(reports, plan).dump(1) << '\n';
+  const bool page_written = write_page(data, output + "/index.html");
   if (!page_written) std::fprintf(stderr, "lapilli_run: the page could not be made; results.json is there\n");
   if (!first_driver_drew(reports)) {
     std::fprintf(stderr, "lapilli_run: %s failed, or drew nothing\n", drivers.front().label.c_str());

@@ -1,7 +1,6 @@
 // Lets the drivers take turns and takes the medians.
 #include "run/measure.h"
 
-#include <algorithm>
 #include <memory>
 
 #include "run/child.h"
@@ -19,13 +18,6 @@ struct Series {
 };
 
 }  // namespace
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::vector<Measurement> measure(const std::string& scene, const std::vector<Driver>& drivers, const Plan& plan) {
   std::vector<Measurement> results(drivers.size());

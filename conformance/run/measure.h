@@ -5,14 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "run/common.h"
 #include "scenes/renderer.h"
 
 namespace lapilli::run {
-
-struct Driver {
-  std::string manifest;  // path of its ICD's JSON
-  std::string label;     // short name for tables and files
-};
 
 struct Plan {
   std::string program;  // this executable
@@ -34,8 +30,5 @@ struct Measurement {
 
 // In the order of `drivers`. All starts and rounds go A B C A B C …, one process at work at any time.
 std::vector<Measurement> measure(const std::string& scene, const std::vector<Driver>& drivers, const Plan& plan);
-
-// The middle value (the upper one of two); 0 of none.
-double median(std::vector<double> values);
 
 }  // namespace lapilli::run

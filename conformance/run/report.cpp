@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
-#include <sstream>
 #include <thread>
 
 #include "common/png.h"
@@ -13,12 +11,6 @@ namespace lapilli::run {
 namespace {
 
 using nlohmann::json;
-
-std::string number(double value, int digits) {
-  char text[64];
-  std::snprintf(text, sizeof(text), "%.*f", digits, value);
-  return text;
-}
 
 std::string scientific(double value) {
   if (value == 0) return "0";
@@ -82,14 +74,6 @@ std::vector<std::vector<std::string>> cells(const std::vector<SceneReport>& repo
     }
   }
   return lines;
-}
-
-std::string cpu_name() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);) {
-    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
-  }
-  return "an unnamed CPU";
 }
 
 json results(const std::vector<SceneReport>& reports) {
@@ -190,24 +174,7 @@ SceneReport make_report(std::string_view name, std::string_view summary, const s
   return report;
 }
 
-std::string table(const std::vector<SceneReport>& reports) {
-  const std::vector<std::vector<std::string>> lines = cells(reports);
-  std::vector<size_t> widths(lines[0].size());
-  for (const std::vector<std::string>& line : lines) {
-    if (line.size() != widths.size()) continue;  // a failure's text may be longer than its column
-    for (size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
-  }
-  std::ostringstream out;
-  for (const std::vector<std::string>& line : lines) {
-    std::string text;
-    for (size_t i = 0; i < line.size(); ++i) {
-      const std::string padding(widths[i] - std::min(widths[i], line[i].size()), ' ');
-      text += i < 2 ? line[i] + padding + "  " : padding + line[i] + "  ";
-    }
-    out << text.substr(0, text.find_last_not_of(' ') + 1) << '\n';
-  }
-  return out.str();
-}
+std::string table(const std::vector<SceneReport>& reports) { return aligned(cells(reports), 2); }
 
 json page(const std::vector<SceneReport>& reports, const Plan& plan) {
   json devices = json::object();

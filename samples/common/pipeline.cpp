@@ -75,9 +75,11 @@ PipelineLayout create_pipeline_layout(const Context& context, std::span<const Vk
 
 Pipeline create_graphics_pipeline(const Context& context, const GraphicsPipelineInfo& info) {
   const ShaderModule vertex = create_shader_module(context, info.vertex_shader);
-  const ShaderModule fragment = create_shader_module(context, info.fragment_shader);
-  const std::array<VkPipelineShaderStageCreateInfo, 2> stages = {stage(VK_SHADER_STAGE_VERTEX_BIT, vertex),
-                                                                 stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment)};
+  const bool has_fragments = !info.fragment_shader.empty();
+  const ShaderModule fragment = has_fragments ? create_shader_module(context, info.fragment_shader) : ShaderModule();
+  std::array<VkPipelineShaderStageCreateInfo, 2> stages = {stage(VK_SHADER_STAGE_VERTEX_BIT, vertex),
+                                                           stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment)};
+  stages[1].pSpecializationInfo = info.fragment_constants;
 
   const VkVertexInputBindingDescription binding = {0, info.vertices.stride, VK_VERTEX_INPUT_RATE_VERTEX};
   VkPipelineVertexInputStateCreateInfo vertex_input = {};
@@ -103,19 +105,19 @@ Pipeline create_graphics_pipeline(const Context& context, const GraphicsPipeline
 
   VkPipelineMultisampleStateCreateInfo multisample = {};
   multisample.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
-  multisample.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+  multisample.rasterizationSamples = info.samples;
 
   const VkPipelineRasterizationStateCreateInfo raster = rasterization(info.cull_back_faces);
   const VkPipelineDepthStencilStateCreateInfo depth = depth_stencil(info.depth_test);
   const VkPipelineColorBlendAttachmentState attachment = blend_state(info.blend);
   VkPipelineColorBlendStateCreateInfo blend = {};
   blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
-  blend.attachmentCount = 1;
+  blend.attachmentCount = has_fragments ? 1 : 0;
   blend.pAttachments = &attachment;
 
   VkGraphicsPipelineCreateInfo create = {};
   create.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
-  create.stageCount = static_cast<uint32_t>(stages.size());
+  create.stageCount = has_fragments ? 2 : 1;
   create.pStages = stages.data();
   create.pVertexInputState = &vertex_input;
   create.pInputAssemblyState = &input_assembly;

@@ -12,10 +12,11 @@ struct VertexLayout {
   std::span<const VkVertexInputAttributeDescription> attributes;
 };
 
-// Triangle list over the whole extent, no multisampling, counter-clockwise front faces.
+// Triangle list over the whole extent, counter-clockwise front faces.
 struct GraphicsPipelineInfo {
   std::span<const uint32_t> vertex_shader;
-  std::span<const uint32_t> fragment_shader;
+  std::span<const uint32_t> fragment_shader;  // none: depth alone is written
+  const VkSpecializationInfo* fragment_constants = nullptr;
   VertexLayout vertices;
   VkPipelineLayout layout = VK_NULL_HANDLE;
   VkRenderPass render_pass = VK_NULL_HANDLE;
@@ -23,6 +24,7 @@ struct GraphicsPipelineInfo {
   bool cull_back_faces = false;
   bool depth_test = false;  // VK_COMPARE_OP_LESS, with writes
   bool blend = false;       // source alpha over destination
+  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
 };
 
 ShaderModule create_shader_module(const Context& context, std::span<const uint32_t> code);

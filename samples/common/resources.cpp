@@ -55,15 +55,17 @@ VkImageAspectFlags aspect_of(VkFormat format) {
   return format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 
-Image::Image(const Context& context, VkExtent2D extent, VkFormat format, VkImageUsageFlags usage) : extent_(extent) {
+Image::Image(const Context& context, VkExtent2D extent, VkFormat format, VkImageUsageFlags usage,
+             const ImageShape& shape)
+    : extent_(extent) {
   VkImageCreateInfo info = {};
   info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
   info.imageType = VK_IMAGE_TYPE_2D;
   info.format = format;
   info.extent = {extent.width, extent.height, 1};
-  info.mipLevels = 1;
+  info.mipLevels = shape.mip_levels;
   info.arrayLayers = 1;
-  info.samples = VK_SAMPLE_COUNT_1_BIT;
+  info.samples = shape.samples;
   info.tiling = VK_IMAGE_TILING_OPTIMAL;
   info.usage = usage;
   info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
@@ -82,7 +84,7 @@ Image::Image(const Context& context, VkExtent2D extent, VkFormat format, VkImage
   view.image = image;
   view.viewType = VK_IMAGE_VIEW_TYPE_2D;
   view.format = format;
-  view.subresourceRange = {aspect_of(format), 0, 1, 0, 1};
+  view.subresourceRange = {aspect_of(format), 0, shape.mip_levels, 0, 1};
   VkImageView raw_view = VK_NULL_HANDLE;
   check(vkCreateImageView(context.device(), &view, nullptr, &raw_view), "vkCreateImageView");
   view_ = ImageView(context.device(), raw_view);

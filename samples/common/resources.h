@@ -35,11 +35,17 @@ class Buffer {
   void* data_ = nullptr;
 };
 
-// An optimally tiled 2D image with one mip level, one layer and a view of all of it.
+struct ImageShape {
+  uint32_t mip_levels = 1;
+  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+};
+
+// An optimally tiled 2D image with one layer and a view of all of it.
 class Image {
  public:
   Image() = default;
-  Image(const Context& context, VkExtent2D extent, VkFormat format, VkImageUsageFlags usage);
+  Image(const Context& context, VkExtent2D extent, VkFormat format, VkImageUsageFlags usage,
+        const ImageShape& shape = {});
 
   VkImage get() const { return image_.get(); }
   VkImageView view() const { return view_.get(); }

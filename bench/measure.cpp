@@ -1,0 +1,124 @@
+// See measure.h.
+#include "measure.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "child.h"
+#include "run/process.h"
+
+namespace lapilli::bench {
+namespace {
+
+using nlohmann::json;
+
+// What a driver's turns and starts have given so far.
+struct Taken {
+  std::unique_ptr<run::Process> process;
+  std::vector<double> pipelines, first_frames;
+  std::vector<double> frames, records, cpu, others;  // one for each turn
+};
+
+void start(Result& result, Taken& taken, const run::Launch& launch) {
+  taken.process.reset();
+  taken.process = std::make_unique<run::Process>(launch);
+  const auto hello = taken.process->answer();
+  if (!hello) {
+    result.absent = "no first frame: " + taken.process->ended();
+  } else if (hello->contains("failure")) {
+    result.absent = hello->at("failure");
+  } else if (hello->contains("missing")) {
+    result.absent = "needs " + hello->at("missing").get<std::string>();
+  } else {
+    result.device = hello->at("device");
+    taken.pipelines.push_back(hello->at("pipelines"));
+    taken.first_frames.push_back(hello->at("first_record").get<double>() + hello->at("first_frame").get<double>());
+  }
+}
+
+void take_turn(Result& result, Taken& taken, double milliseconds, int frames, bool counts) {
+  std::optional<json> reply;
+  if (taken.process->tell("turn " + std::to_string(milliseconds) + " " + std::to_string(frames))) {
+    reply = taken.process->answer();
+  }
+  if (!reply || !reply->contains("frames")) {
+    result.absent = "ended while drawing: " + (reply ? reply->dump() : taken.process->ended());
+  } else if (counts) {
+    taken.frames.push_back(run::median(reply->at("frames")));
+    taken.records.push_back(run::median(reply->at("records")));
+    taken.cpu.push_back(reply->at("cpu"));
+    taken.others.push_back(reply->at("others"));
+  }
+}
+
+// Turns in which others took the machine are left out if at least half of them are not such.
+std::vector<double> undisturbed(const std::vector<double>& values, const std::vector<double>& others) {
+  std::vector<double> kept;
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (others[i] <= kOthers) kept.push_back(values[i]);
+  }
+  return 2 * kept.size() >= values.size() ? kept : values;
+}
+
+void finish(Result& result, Taken& taken, const std::string& picture) {
+  result.pipelines = run::median(taken.pipelines);
+  result.first_frame = run::median(taken.first_frames);
+  result.turns = taken.frames;
+  result.frame = run::median(undisturbed(taken.frames, taken.others));
+  result.record = run::median(undisturbed(taken.records, taken.others));
+  result.cpu = run::median(undisturbed(taken.cpu, taken.others));
+  result.others = run::median(taken.others);
+  result.disturbed = result.others > kOthers;
+  if (taken.process->tell("memory")) {
+    if (const auto memory = taken.process->answer()) {
+      result.resident_kb = memory->at("resident_kb");
+      result.anonymous_kb = memory->at("anonymous_kb");
+      result.peak_kb = memory->at("peak_kb");
+    }
+  }
+  if (!picture.empty() && taken.process->tell("picture " + picture)) {
+    if (const auto saved = taken.process->answer()) result.colors = saved->at("colors");
+  }
+}
+
+}  // namespace
+
+Series measure(const SceneEntry& entry, const SceneOptions& options, const std::vector<run::Driver>& drivers,
+               const Plan& plan, const Limits& limits) {
+  Series series = {std::string(entry.name), options, {}, std::vector<Result>(drivers.size())};
+  if (series.options.count == 0) series.options.count = entry.count;
+  series.work = create_scene(entry, series.options)->work();
+  std::vector<Taken> taken(drivers.size());
+  std::vector<run::Launch> launches;
+  for (size_t i = 0; i < drivers.size(); ++i) {
+    series.results[i].driver = drivers[i].label;
+    run::Launch launch = {
+        plan.program, arguments_of({series.scene, series.options}), drivers[i].manifest, {}, limits.threads};
+    if (limits.threads > 0) {
+      launch.environment = {{"LAPILLI_THREADS", std::to_string(limits.threads)},
+                            {"LP_NUM_THREADS", std::to_string(limits.threads)}};
+    }
+    launches.push_back(launch);
+  }
+  const auto each = [&](auto&& act) {
+    for (size_t i = 0; i < drivers.size(); ++i) {
+      if (series.results[i].absent.empty()) act(series.results[i], taken[i], i);
+    }
+  };
+  for (int s = 0; s < plan.starts; ++s) {
+    each([&](Result& result, Taken& t, size_t i) { start(result, t, launches[i]); });
+  }
+  // The second frame may still make things that the first one left for later.
+  each([&](Result& result, Taken& t, size_t) { take_turn(result, t, plan.turn_ms / 4, 3, false); });
+  for (int round = 0; round < plan.rounds; ++round) {
+    each([&](Result& result, Taken& t, size_t) { take_turn(result, t, plan.turn_ms, plan.frames_per_turn, true); });
+  }
+  each([&](Result& result, Taken& t, size_t) {
+    const std::string size = std::to_string(options.extent.width) + "x" + std::to_string(options.extent.height);
+    const std::string file = plan.pictures + "/" + series.scene + "." + size + "." + result.driver + ".png";
+    finish(result, t, plan.pictures.empty() ? "" : file);
+  });
+  return series;
+}
+
+}  // namespace lapilli::bench

@@ -1,0 +1,54 @@
+// Lets the drivers take turns on a scene and takes the medians.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "run/common.h"
+#include "scenes/scene.h"
+
+namespace lapilli::bench {
+
+struct Plan {
+  std::string program;  // this executable
+  int starts = 3;       // fresh processes for pipelines and first frames
+  int rounds = 5;       // turns of each driver
+  double turn_ms = 120;
+  int frames_per_turn = 200;  // at most
+  std::string pictures;       // directory for PNGs of the last frames; empty: none
+};
+
+// A scene at a size on a driver; all times in ms, medians.
+struct Result {
+  std::string driver;
+  std::string device;
+  std::string absent;  // why there is nothing: what the device lacks, or how the process ended
+  double frame = 0;
+  double record = 0;
+  double cpu = 0;  // of all threads, recording included
+  double pipelines = 0;
+  double first_frame = 0;                                 // recording and submission to fence, after the pipelines
+  double resident_kb = 0, anonymous_kb = 0, peak_kb = 0;  // after the last frame
+  std::vector<double> turns;                              // the median frame of each turn
+  double others = 0;       // the median turn's share of all CPUs that other processes used
+  bool disturbed = false;  // that share was above kOthers in more than half of the turns
+  int colors = 0;          // in the picture, if one was asked for
+};
+constexpr double kOthers = 0.1;
+
+struct Series {
+  std::string scene;
+  SceneOptions options;
+  Work work;
+  std::vector<Result> results;  // in the order of the drivers
+};
+
+// How a driver's process is started beside its manifest.
+struct Limits {
+  int threads = 0;  // 0: as many as there are CPUs
+};
+
+Series measure(const SceneEntry& entry, const SceneOptions& options, const std::vector<run::Driver>& drivers,
+               const Plan& plan, const Limits& limits = {});
+
+}  // namespace lapilli::bench

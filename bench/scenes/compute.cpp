@@ -1,0 +1,124 @@
+// Scenes that compute: a vector operation at the speed of memory, and gravity between all pairs.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "common/pipeline.h"
+#include "scenes/kinds.h"
+#include "shaders/nbody.comp.h"
+#include "shaders/nbody_shared.comp.h"
+#include "shaders/saxpy.comp.h"
+
+namespace lapilli::bench {
+namespace {
+
+constexpr uint32_t kGroup = 64;  // local_size_x of all shaders here
+
+// Two storage buffers and push constants of a float and a count; an invocation for each element.
+struct Kernel {
+  std::span<const uint32_t> shader;
+  std::vector<float> input;
+  std::vector<float> output;  // as it is before the first frame
+  float parameter;
+  Work work;
+};
+
+class Compute : public Scene {
+ public:
+  Compute(const SceneOptions& options, Kernel kernel)
+      : extent_(options.extent), count_(options.count), kernel_(std::move(kernel)) {}
+
+  void create_resources(const samples::Context& context) override {
+    input_ = samples::Buffer(context, std::span<const float>(kernel_.input), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    output_ = samples::Buffer(context, std::span<const float>(kernel_.output), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    const std::array<samples::Binding, 2> bindings = {
+        samples::BufferBinding{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT, &input_},
+        samples::BufferBinding{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT, &output_}};
+    set_ = samples::DescriptorSet(context, bindings);
+    const VkDescriptorSetLayout set_layout = set_.layout();
+    const VkPushConstantRange push = {VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(Push)};
+    layout_ = samples::create_pipeline_layout(context, std::span(&set_layout, 1), std::span(&push, 1));
+  }
+  void create_pipelines(const samples::Context& context) override {
+    pipeline_ = samples::create_compute_pipeline(context, kernel_.shader, layout_.get());
+  }
+  void record(VkCommandBuffer commands) const override {
+    VkMemoryBarrier barrier = {};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+    barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
+    barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
+    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 1,
+                         &barrier, 0, nullptr, 0, nullptr);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
+    VkDescriptorSet set = set_.get();
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.get(), 0, 1, &set, 0, nullptr);
+    const Push push = {kernel_.parameter, count_};
+    vkCmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(push), &push);
+    vkCmdDispatch(commands, (count_ + kGroup - 1) / kGroup, 1, 1);
+    barrier.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
+    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0,
+                         nullptr, 0, nullptr);
+  }
+  // The first results as grey values, 0.5 for 0; black behind the last.
+  samples::Frame read_back(const samples::Context&) const override {
+    const size_t pixels = size_t{extent_.width} * extent_.height;
+    samples::Frame frame = {extent_.width, extent_.height, std::vector<uint8_t>(pixels * 4, 0), {}};
+    const auto* values = static_cast<const float*>(output_.data());
+    for (size_t i = 0; i < std::min(pixels, kernel_.output.size()); ++i) {
+      const float level = std::clamp(0.5f + 0.5f * values[i], 0.0f, 1.0f);
+      std::memset(&frame.color[i * 4], static_cast<int>(std::lround(level * 255)), 3);
+      frame.color[i * 4 + 3] = 255;
+    }
+    return frame;
+  }
+  Work work() const override { return kernel_.work; }
+
+ private:
+  struct Push {
+    float parameter;
+    uint32_t count;
+  };
+  VkExtent2D extent_;
+  uint32_t count_;
+  Kernel kernel_;
+  samples::Buffer input_, output_;
+  samples::DescriptorSet set_;
+  samples::PipelineLayout layout_;
+  samples::Pipeline pipeline_;
+};
+
+std::vector<float> waves(size_t count, float step) {
+  std::vector<float> values(count);
+  for (size_t i = 0; i < count; ++i) values[i] = std::sin(step * static_cast<float>(i % 65536));
+  return values;
+}
+
+Kernel gravity(const SceneOptions& options, std::span<const uint32_t> shader) {
+  Kernel kernel = {
+      shader, waves(size_t{options.count} * 4, 0.37f), std::vector<float>(size_t{options.count} * 4), 1e-4f, {}};
+  for (size_t i = 3; i < kernel.input.size(); i += 4) kernel.input[i] = 1.0f;  // masses
+  // Three differences, three for the square, a root and a division as one each, three products, three fma.
+  kernel.work.operations = 14.0 * options.count * options.count;
+  return kernel;
+}
+
+}  // namespace
+
+// Two numbers read and one written. The factor is small, so that thousands of frames stay in range.
+std::unique_ptr<Scene> saxpy_scene(const SceneOptions& options) {
+  return std::make_unique<Compute>(options,
+                                   Kernel{shaders::kSaxpyComp,
+                                          waves(options.count, 0.01f),
+                                          waves(options.count, 0.0007f),
+                                          1e-6f,
+                                          {.memory_bytes = 12.0 * options.count, .operations = 1.0 * options.count}});
+}
+std::unique_ptr<Scene> nbody_scene(const SceneOptions& options) {
+  return std::make_unique<Compute>(options, gravity(options, shaders::kNbodyComp));
+}
+std::unique_ptr<Scene> nbody_shared_scene(const SceneOptions& options) {
+  return std::make_unique<Compute>(options, gravity(options, shaders::kNbodySharedComp));
+}
+
+}  // namespace lapilli::bench
