@@ -9,10 +9,12 @@
 //   as_f, as_i, as_u          bit casts
 //   + - * /                   F and D, correctly rounded; + - * & | ^ ~ wrap on I and U; & | ^ ~ and and_not(a, b) on M
 //   fma(a, b, c)              a * b + c rounded once, on every target, overflow and denormals included
+//   fma_exact(a, b, c)        the same where a * b needs no rounding, which is quicker
 //   eq lt le ne gt ge         ordered comparisons (false for NaN, but ne is true); unordered_… are true for NaN
 //   select(m, yes, no)        any(m), all(m)
 //   min(x, y)                 y < x ? y : x, max(x, y)  x < y ? y : x (SPIR-V FMin, FMax); nmin, nmax prefer what
 //                             is no NaN; min and max on I and U as expected
+//   reduce_min, reduce_max    of the lanes of an F without NaN
 //   mul_high                  the upper 32 bits of a 64-bit product
 //   shift_left, shift_right   by a vector count modulo 32, or shift_left<n>(v); arithmetic for I, logical for U
 //   divide, remainder, modulo integers, defined for every operand: lanes_integer-inl.h
@@ -20,6 +22,7 @@
 //   to_float, to_int, to_uint, to_double  conversions: lanes_convert-inl.h; pack_half, unpack_half
 //   mask_of(word, index)      lanes index * kVectorLanes … of a 64-lane word as M; bits_of(m) the other way, unshifted
 //   gather32(base, byte_offsets, m)  32-bit values at base + offset (below 2^31, any alignment), 0 where m is not set
+//   pack_bytes(c0, c1, c2, c3)  bytes from integers up to 255; byte_over_255<n>(u) a byte as a fraction
 //   swap_columns, swap_rows   of U, within each 2x2 quad of lanes
 //   canonical(f)              every NaN as 0x7FC00000
 //   first_lane(u)             lane 0 as a number
@@ -52,6 +55,13 @@ namespace HWY_NAMESPACE {
 inline constexpr int kLanes = 64;
 inline constexpr int kVectorsPerBatch = kLanes / kVectorLanes;
 
+HWY_API F fma_exact(F a, F b, F c) {
+#if HWY_TARGET == HWY_SCALAR
+  return a * b + c;
+#else
+  return fma(a, b, c);
+#endif
+}
 HWY_API F zero_f() { return broadcast(0.0f); }
 HWY_API I zero_i() { return broadcast(0); }
 HWY_API U zero_u() { return broadcast(0u); }

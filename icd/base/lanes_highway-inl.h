@@ -185,6 +185,9 @@ HWY_API F max(F x, F y) { return hn::Max(y, x); }
 HWY_API F min(F x, F y) { return select(lt(y, x), y, x); }
 HWY_API F max(F x, F y) { return select(lt(x, y), y, x); }
 #endif
+// Of all lanes; no NaN among them.
+HWY_API float reduce_min(F a) { return hn::GetLane(hn::MinOfLanes(FTag(), a)); }
+HWY_API float reduce_max(F a) { return hn::GetLane(hn::MaxOfLanes(FTag(), a)); }
 HWY_API F trunc(F a) { return hn::Trunc(a); }
 HWY_API F round_even(F a) { return hn::Round(a); }
 HWY_API F floor(F a) { return hn::Floor(a); }
@@ -280,6 +283,32 @@ HWY_API U gather32(const void* base, U byte_offsets, M m) {
   return load<U>(lanes);
 #endif
 }
+// Byte c of every lane: its c-th operand, 0 where negative. All are at most 255.
+HWY_API U pack_bytes(I c0, I c1, I c2, I c3) {
+#if HWY_TARGET == HWY_AVX3
+  const __m512i words01 = _mm512_packs_epi32(c0.raw, c1.raw);
+  const __m512i words23 = _mm512_packs_epi32(c2.raw, c3.raw);
+  const __m512i transpose = _mm512_set4_epi32(0x0F0B0703, 0x0E0A0602, 0x0D090501, 0x0C080400);
+  return U{_mm512_shuffle_epi8(_mm512_packus_epi16(words01, words23), transpose)};
+#elif HWY_TARGET == HWY_AVX2
+  const __m256i words01 = _mm256_packs_epi32(c0.raw, c1.raw);
+  const __m256i words23 = _mm256_packs_epi32(c2.raw, c3.raw);
+  const __m256i transpose = _mm256_broadcastsi128_si256(_mm_set_epi32(0x0F0B0703, 0x0E0A0602, 0x0D090501, 0x0C080400));
+  return U{_mm256_shuffle_epi8(_mm256_packus_epi16(words01, words23), transpose)};
+#else
+  const auto byte = [](I c) { return as_u(max(c, broadcast(0))); };
+  return hn::Or(hn::Or(byte(c0), shift_left<8>(byte(c1))), hn::Or(shift_left<16>(byte(c2)), shift_left<24>(byte(c3))));
+#endif
+}
+#if HWY_TARGET == HWY_AVX3
+// Byte kByte of every lane in all four bytes of the lane.
+template <int kByte>
+HWY_API U repeat_byte(U a) {
+  constexpr int b = kByte * 0x01010101;
+  const __m512i indices = _mm512_set4_epi32(b + 0x0C0C0C0C, b + 0x08080808, b + 0x04040404, b);
+  return U{_mm512_shuffle_epi8(a.raw, indices)};
+}
+#endif
 // Within each 2x2 quad: lanes (1, 0, 3, 2) and lanes (2, 3, 0, 1).
 HWY_API U swap_columns(U a) { return hn::Shuffle2301(a); }
 HWY_API U swap_rows(U a) { return hn::Shuffle1032(a); }

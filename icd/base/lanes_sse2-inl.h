@@ -212,6 +212,14 @@ HWY_API M le(F a, F b) { return {_mm_cmple_ps(a.raw, b.raw)}; }
 // minps and maxps give their second operand where the comparison is false.
 HWY_API F min(F x, F y) { return {_mm_min_ps(y.raw, x.raw)}; }
 HWY_API F max(F x, F y) { return {_mm_max_ps(y.raw, x.raw)}; }
+HWY_API float reduce_min(F a) {
+  const __m128 two = _mm_min_ps(a.raw, _mm_movehl_ps(a.raw, a.raw));
+  return _mm_cvtss_f32(_mm_min_ps(two, _mm_shuffle_ps(two, two, 1)));
+}
+HWY_API float reduce_max(F a) {
+  const __m128 two = _mm_max_ps(a.raw, _mm_movehl_ps(a.raw, a.raw));
+  return _mm_cvtss_f32(_mm_max_ps(two, _mm_shuffle_ps(two, two, 1)));
+}
 HWY_API F to_float(I a) { return {_mm_cvtepi32_ps(a.raw)}; }
 HWY_API I truncate_in_range(F a) { return {_mm_cvttps_epi32(a.raw)}; }
 HWY_API I nearest_in_range(F a) { return {_mm_cvtps_epi32(a.raw)}; }
@@ -325,6 +333,13 @@ HWY_API U gather32(const void* base, U byte_offsets, M m) {
     }
   }
   return load<U>(lanes);
+}
+HWY_API U pack_bytes(I c0, I c1, I c2, I c3) {
+  const __m128i words02 = _mm_packs_epi32(c0.raw, c2.raw);
+  const __m128i words13 = _mm_packs_epi32(c1.raw, c3.raw);
+  const __m128i bytes = _mm_packus_epi16(words02, words13);  // four each of c0 c2 c1 c3
+  const __m128i pairs = _mm_unpacklo_epi8(bytes, _mm_srli_si128(bytes, 8));
+  return {_mm_unpacklo_epi16(pairs, _mm_srli_si128(pairs, 8))};
 }
 HWY_API U swap_columns(U a) { return {_mm_shuffle_epi32(a.raw, _MM_SHUFFLE(2, 3, 0, 1))}; }
 HWY_API U swap_rows(U a) { return {_mm_shuffle_epi32(a.raw, _MM_SHUFFLE(1, 0, 3, 2))}; }

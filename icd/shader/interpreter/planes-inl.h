@@ -1,0 +1,63 @@
+// Edge functions and depth of one triangle over the lanes of a block. Per-target header.
+// E is an exact integer in double wherever it is evaluated, so that any order of adding its parts gives the same bits.
+#if defined(LAPILLI_SHADER_PLANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAPILLI_SHADER_PLANES_INL_H
+#undef LAPILLI_SHADER_PLANES_INL_H
+#else
+#define LAPILLI_SHADER_PLANES_INL_H
+#endif
+
+#include "base/lanes-inl.h"
+#include "shader/batch.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lapilli {
+namespace HWY_NAMESPACE {
+
+// Pixels from a quad's first lane, for up to four quads in a row of a block.
+alignas(64) inline constexpr double kLaneX[16] = {0, 1, 0, 1, 2, 3, 2, 3, 4, 5, 4, 5, 6, 7, 6, 7};
+alignas(64) inline constexpr double kLaneY[16] = {0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1};
+static_assert(kVectorLanes <= 16, "a vector lies in one row of a block's quads");
+
+// An edge function over a block: vector 0, and the step from there to vector i.
+struct BlockEdge {
+  D first;
+  double a, b;
+
+  HWY_INLINE BlockEdge(double edge_a, double edge_b, double edge_c, uint32_t x, uint32_t y) : a(edge_a), b(edge_b) {
+    const double at_origin = edge_a * x + edge_b * y + edge_c;
+    first = broadcast(at_origin) + (broadcast(a) * load_d(kLaneX) + broadcast(b) * load_d(kLaneY));
+  }
+  HWY_INLINE D vector(int i) const {
+    constexpr int kPerRow = 16 / kVectorLanes;
+    const double dx = i % kPerRow * (kVectorLanes / 2);
+    const double dy = i / kPerRow * 2;
+    return first + broadcast(a * dx + b * dy);
+  }
+};
+
+// Its clamp, as frag_depth has it: a NaN stays one.
+HWY_API F clamp_depth(F z, const DepthPlane& plane) { return min(max(z, broadcast(plane.min)), broadcast(plane.max)); }
+HWY_API F depth_at(D e1, D e2, const DepthPlane& plane) {
+  const D z = (e1 * broadcast(plane.k1) + e2 * broadcast(plane.k2)) + broadcast(plane.z0);
+  return clamp_depth(to_float(z), plane);
+}
+
+// VkCompareOp of a fragment's depth and the stored one.
+template <int kCompare>
+HWY_API M compare_depth(F z, F stored) {
+  if constexpr (kCompare == 0) return no_lanes();  // NEVER
+  if constexpr (kCompare == 1) return lt(z, stored);
+  if constexpr (kCompare == 2) return eq(z, stored);
+  if constexpr (kCompare == 3) return le(z, stored);
+  if constexpr (kCompare == 4) return gt(z, stored);
+  if constexpr (kCompare == 5) return ne(z, stored);
+  if constexpr (kCompare == 6) return ge(z, stored);
+  return all_lanes();  // ALWAYS
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lapilli
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target
