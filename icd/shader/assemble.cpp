@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cassert>
 #include <cinttypes>
+#include <cstdarg>
 #include <cstdio>
 
 #include "image/format.h"
@@ -31,11 +32,8 @@ class Assembler {
     if (allocation_.count > kMaxRegisters) return error("the shader needs too many registers", allocation_.count);
     program_.register_count = allocation_.count;
     program_.forms = std::move(choice.forms);
-    for (Reg reg = 0; reg < code_.registers.size(); ++reg) {
-      if (code_.registers[reg].kind == RegKind::constant && allocation_.physical[reg] != kNoOperand) {
-        program_.constants.push_back({allocation_.physical[reg], code_.registers[reg].bits});
-      }
-    }
+    if (Result<void> done = place_scalars(); !done) return done;
+    make_once();
     program_.ops.reserve(code_.instructions.size());
     for (uint32_t i = 0; i < code_.instructions.size(); ++i) program_.ops.push_back(make_op(i));
     if (program_.lists.size() > kNoOperand)
@@ -44,6 +42,59 @@ class Assembler {
   }
 
  private:
+  // Constants first, each where lanes or the once section read it.
+  Result<void> place_scalars() {
+    scalars_.assign(code_.registers.size(), kNoOperand);
+    for (const Instruction& instruction : code_.once) {
+      for_each_operand(code_, instruction, [this](Reg reg) { place_constant(reg); });
+    }
+    for (Reg reg = 0; reg < code_.registers.size(); ++reg) {
+      if (allocation_.physical[reg] != kNoOperand) place_constant(reg);
+    }
+    uint32_t count = static_cast<uint32_t>(program_.constants.size());
+    for (const Instruction& instruction : code_.once) {
+      for (uint32_t k = 0; k < instruction.results; ++k) scalars_[instruction.dst + k] = static_cast<uint16_t>(count++);
+    }
+    if (count > kNoOperand) return error("the shader has too many constants", count);
+    program_.scalar_count = count;
+    for (Reg reg = 0; reg < code_.registers.size(); ++reg) {
+      const uint16_t lanes = allocation_.physical[reg];
+      if (scalars_[reg] == kNoOperand || lanes == kNoOperand) continue;
+      const bool constant = code_.registers[reg].kind == RegKind::constant;
+      (constant ? program_.constant_lanes : program_.uniform_lanes).push_back({lanes, scalars_[reg]});
+    }
+    return {};
+  }
+
+  void place_constant(Reg reg) {
+    if (code_.registers[reg].kind != RegKind::constant || scalars_[reg] != kNoOperand) return;
+    scalars_[reg] = static_cast<uint16_t>(program_.constants.size());
+    program_.constants.push_back(code_.registers[reg].bits);
+  }
+
+  uint16_t scalar(Reg reg) const { return reg == kNoReg ? kNoOperand : scalars_[reg]; }
+
+  void make_once() {
+    if (code_.once.empty()) return;
+    program_.once.reserve(code_.once.size() + 1);
+    for (const Instruction& instruction : code_.once) {
+      Op op = {};
+      op.handler = find_handler(program_.target, instruction.op, kOnce);
+      op.dst = scalar(instruction.dst);
+      op.a = scalar(instruction.a);
+      op.b = scalar(instruction.b);
+      op.c = op_info(instruction.op).results < 0 ? instruction.results : scalar(instruction.c);
+      op.imm = instruction.imm;
+      op.imm2 = instruction.imm2;
+      program_.once.push_back(op);
+      program_.once_reads_batch |= instruction.op == Opcode::builtin;
+      program_.once_cost += op_info(instruction.op).cost;
+    }
+    Op end = {};
+    end.handler = find_handler(program_.target, Opcode::end, kStore);
+    program_.once.push_back(end);
+  }
+
   Result<void> resolve_formats() {
     program_.sampling = &sampling_functions(program_.target);
     program_.depth = &texel_functions(kFormats[static_cast<size_t>(FormatIndex::D32_SFLOAT)], program_.target);
@@ -79,6 +130,7 @@ class Assembler {
   Op make_op(uint32_t at) {
     const Instruction& instruction = code_.instructions[at];
     const ImmRoles roles = imm_roles(instruction.op);
+    program_.lane_cost += op_info(instruction.op).cost;
     Op op = {};
     op.handler = find_handler(program_.target, instruction.op, program_.forms[at]);
     assert(op.handler != nullptr);
@@ -103,6 +155,7 @@ class Assembler {
   Program& program_;
   Code& code_;
   Allocation allocation_;
+  std::vector<uint16_t> scalars_;  // places in Frame::scalars, for each virtual register
 };
 
 }  // namespace
@@ -123,50 +176,74 @@ Result<ProgramPtr> assemble(Code code) {
 }
 
 uint32_t register_count(const Program& program) { return program.register_count; }
+uint32_t once_cost(const Program& program) { return program.once_cost; }
+uint32_t lane_cost(const Program& program) { return program.lane_cost; }
 const Code& source(const Program& program) { return program.source; }
+
+namespace {
+
+__attribute__((format(printf, 2, 3))) void print(std::string& text, const char* format, ...) {
+  char line[64];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(line, sizeof line, format, arguments);
+  va_end(arguments);
+  text += line;
+}
+
+// r: registers, s: scalars. `at`: the op's place, for labels.
+void print_op(std::string& text, const Program& program, const Instruction& instruction, const Op& op, uint8_t form,
+              uint32_t at) {
+  const char file = form == kOnce ? 's' : 'r';
+  if (instruction.results > 0) {
+    if (form == kOnce || (form & kStore) != 0) {
+      print(text, "%c%u = ", file, unsigned{op.dst});
+    } else {
+      text += "acc = ";
+    }
+  }
+  text += op_info(instruction.op).name;
+  const Reg operands[] = {instruction.a, instruction.b, instruction.c};
+  const uint16_t registers[] = {op.a, op.b, op.c};
+  for (int operand = 0; operand < 3; ++operand) {
+    if (operands[operand] == kNoReg) continue;
+    if (form != kOnce && form >> 1 == operand + 1) {
+      text += " acc";
+    } else {
+      print(text, " %c%u", file, unsigned{registers[operand]});
+    }
+  }
+  for (uint32_t k = 0; k < instruction.list_count; ++k) {
+    const uint16_t reg = program.lists[op.a + k];
+    print(text, reg == kNoOperand ? " none" : " r%u", unsigned{reg});
+  }
+  const ImmRoles roles = imm_roles(instruction.op);
+  const uint32_t imms[] = {op.imm, op.imm2};
+  const ImmRole role[] = {roles.imm, roles.imm2};
+  for (int k = 0; k < 2; ++k) {
+    if (role[k] == ImmRole::none) continue;
+    if (role[k] == ImmRole::forward || role[k] == ImmRole::backward) {
+      print(text, " -> %" PRIu32, at + imms[k]);
+    } else {
+      print(text, role[k] == ImmRole::mask ? " m%" PRIu32 : " #%" PRIu32, imms[k]);
+    }
+  }
+  text += '\n';
+}
+
+}  // namespace
 
 std::string disassemble(const Program& program) {
   std::string text;
-  char line[160];
-  for (size_t i = 0; i < program.ops.size(); ++i) {
-    const Op& op = program.ops[i];
-    const Instruction& instruction = program.source.instructions[i];
-    const uint8_t form = program.forms[i];
-    std::snprintf(line, sizeof line, "%5zu  ", i);
-    text += line;
-    if (instruction.results > 0) {
-      std::snprintf(line, sizeof line, (form & kStore) != 0 ? "r%u = " : "acc = ", unsigned{op.dst});
-      text += line;
-    }
-    text += op_info(instruction.op).name;
-    const Reg operands[] = {instruction.a, instruction.b, instruction.c};
-    const uint16_t registers[] = {op.a, op.b, op.c};
-    for (int operand = 0; operand < 3; ++operand) {
-      if (operands[operand] == kNoReg) continue;
-      const bool accumulator = (form >> 1) == operand + 1;
-      std::snprintf(line, sizeof line, accumulator ? " acc" : " r%u", unsigned{registers[operand]});
-      text += line;
-    }
-    for (uint32_t k = 0; k < instruction.list_count; ++k) {
-      const uint16_t reg = program.lists[op.a + k];
-      std::snprintf(line, sizeof line, reg == kNoOperand ? " none" : " r%u", unsigned{reg});
-      text += line;
-    }
-    const ImmRoles roles = imm_roles(instruction.op);
-    const uint32_t imms[] = {op.imm, op.imm2};
-    const ImmRole role[] = {roles.imm, roles.imm2};
-    for (int k = 0; k < 2; ++k) {
-      if (role[k] == ImmRole::none) continue;
-      const bool label = role[k] == ImmRole::forward || role[k] == ImmRole::backward;
-      const uint32_t shown = label ? static_cast<uint32_t>(i) + imms[k] : imms[k];
-      std::snprintf(line, sizeof line,
-                    label                      ? " -> %" PRIu32
-                    : role[k] == ImmRole::mask ? " m%" PRIu32
-                                               : " #%" PRIu32,
-                    shown);
-      text += line;
-    }
-    text += '\n';
+  for (size_t i = 0; i < program.source.once.size(); ++i) {
+    text += " once  ";
+    print_op(text, program, program.source.once[i], program.once[i], kOnce, 0);
+  }
+  for (const Spread& each : program.uniform_lanes)
+    print(text, " once  r%u = s%u\n", unsigned{each.reg}, unsigned{each.scalar});
+  for (uint32_t i = 0; i < program.ops.size(); ++i) {
+    print(text, "%5" PRIu32 "  ", i);
+    print_op(text, program, program.source.instructions[i], program.ops[i], program.forms[i], i);
   }
   return text;
 }

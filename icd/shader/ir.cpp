@@ -51,6 +51,7 @@ ImmRoles imm_roles(Opcode opcode) {
     case Opcode::load_color:
       return {ImmRole::color, ImmRole::none};
     case Opcode::store_color:
+    case Opcode::blend_color:
       return {ImmRole::color, ImmRole::number};
     case Opcode::branch:
     case Opcode::branch_where:
@@ -114,7 +115,7 @@ uint32_t Code::add_resource(const ResourceRef& ref) {
   for (size_t i = 0; i < resources.size(); ++i) {
     const ResourceRef& known = resources[i];
     if (known.set == ref.set && known.first == ref.first && known.count == ref.count &&
-        known.dynamic_offset == ref.dynamic_offset) {
+        known.dynamic_offset == ref.dynamic_offset && known.uniform == ref.uniform) {
       return static_cast<uint32_t>(i);
     }
   }

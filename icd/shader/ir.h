@@ -83,6 +83,7 @@ enum class RegKind : uint8_t {
   value,     // written by exactly one instruction, before all uses in linear order
   variable,  // written any number of times, by masked and plain instructions (phis, Function and Private variables)
   constant,  // holds Code::registers[r].bits in all lanes; never written
+  uniform,   // the same in all lanes of a draw: written by one instruction of Code::once
 };
 
 struct RegInfo {
@@ -103,6 +104,7 @@ struct ResourceRef {
   uint32_t first = 0;           // index of array element 0 in the set's descriptors
   uint32_t count = 1;           // array size: an index outside it reads as an unwritten descriptor
   int32_t dynamic_offset = -1;  // see BindingSlot
+  bool uniform = false;         // a uniform buffer: constant in a draw
 };
 
 struct VertexAttribute {
@@ -152,6 +154,7 @@ enum class BuiltIn : uint32_t {
 // A program under construction.
 struct Code {
   VkShaderStageFlagBits stage = VK_SHADER_STAGE_VERTEX_BIT;
+  std::vector<Instruction> once;  // before all others, once per draw, on scalars
   std::vector<Instruction> instructions;
   std::vector<RegInfo> registers;
   std::vector<Reg> operand_list;

@@ -1,4 +1,5 @@
-// Text of a Code, one instruction a line: %4 value, $4 variable, 0x3f800000 constant, m2 mask register, L3 label.
+// Text of a Code, one instruction a line: %4 value, $4 variable, &4 uniform, 0x3f800000 constant, m2 mask register, L3
+// label.
 #include <cinttypes>
 #include <cstdarg>
 #include <cstdio>
@@ -25,7 +26,8 @@ void print_register(std::string& text, const Code& code, Reg reg) {
   } else if (code.registers[reg].kind == RegKind::constant) {
     print(text, "0x%08" PRIx32, code.registers[reg].bits);
   } else {
-    print(text, "%c%" PRIu32, code.registers[reg].kind == RegKind::variable ? '$' : '%', reg);
+    const RegKind kind = code.registers[reg].kind;
+    print(text, "%c%" PRIu32, kind == RegKind::variable ? '$' : kind == RegKind::uniform ? '&' : '%', reg);
   }
 }
 
@@ -88,6 +90,11 @@ void print_instruction(std::string& text, const Code& code, const Instruction& i
 
 std::string disassemble(const Code& code) {
   std::string text;
+  for (const Instruction& instruction : code.once) {
+    text += " once  ";
+    print_instruction(text, code, instruction);
+    text += '\n';
+  }
   for (uint32_t at = 0; at <= code.instructions.size(); ++at) {
     for (size_t label = 0; label < code.labels.size(); ++label) {
       if (code.labels[label] == at) print(text, "L%zu:\n", label);

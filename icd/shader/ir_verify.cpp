@@ -1,6 +1,7 @@
 // Checks what the passes and the interpreter rely on. The first defect found is described; an empty string means none.
 #include <cstring>
 
+#include "shader/fixed_function.h"
 #include "shader/ir.h"
 #include "shader/resources.h"
 
@@ -22,6 +23,9 @@ class Verifier {
   std::string run() {
     if (!check_tables() || !find_loops()) return error_;
     definition_.assign(code_.registers.size(), kUndefined);
+    for (const Instruction& instruction : code_.once) {
+      if (!check_once(instruction)) return error_;
+    }
     for (at_ = 0; at_ < size(); ++at_) {
       if (!check_instruction(code_.instructions[at_])) return error_;
     }
@@ -94,6 +98,33 @@ class Verifier {
     return true;
   }
 
+  // What runs once per draw: no lanes, no effects, nothing but uniforms.
+  bool check_once(const Instruction& instruction) {
+    constexpr uint32_t kEffects = kWritesMemory | kControl | kMasked | kCrossLane;
+    if (instruction.op >= Opcode::kCount) return fail("an instruction has no opcode");
+    const std::string name = std::string("once: ") + op_info(instruction.op).name;
+    if ((op_info(instruction.op).effects & kEffects) != 0 || instruction.list_count != 0)
+      return fail(name + " cannot run on scalars");
+    for (Reg reg : {instruction.a, instruction.b, instruction.c}) {
+      if (reg == kNoReg) continue;
+      const bool known = reg < code_.registers.size() &&
+                         (code_.registers[reg].kind == RegKind::constant ||
+                          (code_.registers[reg].kind == RegKind::uniform && definition_[reg] != kUndefined));
+      if (!known) return fail(name + ": an operand is not uniform");
+    }
+    const uint64_t end = uint64_t{instruction.dst} + instruction.results;
+    if (instruction.results == 0 || end > code_.registers.size()) return fail(name + ": the result is no register");
+    for (Reg reg = instruction.dst; reg < end; ++reg) {
+      if (code_.registers[reg].kind != RegKind::uniform || definition_[reg] != kUndefined)
+        return fail(name + ": the result is no new uniform");
+      definition_[reg] = 0;
+    }
+    const ImmRoles roles = imm_roles(instruction.op);
+    if (roles.imm == ImmRole::resource && instruction.imm >= code_.resources.size())
+      return fail(name + ": no such resource");
+    return true;
+  }
+
   bool check_instruction(const Instruction& instruction) {
     const OpInfo& info = op_info(instruction.op);
     if (instruction.op == Opcode::end && at_ + 1 != size()) return fail_here("not the last instruction");
@@ -123,6 +154,8 @@ class Verifier {
 
   bool check_use(char which, Reg reg) {
     if (reg >= code_.registers.size()) return fail_operand(which, "is no register");
+    if (code_.registers[reg].kind == RegKind::uniform && definition_[reg] == kUndefined)
+      return fail_operand(which, "is a uniform that nothing computes");
     if (code_.registers[reg].kind != RegKind::value) return true;
     if (definition_[reg] == kUndefined) return fail_operand(which, "is used before its definition");
     // Lanes that left the loop earlier would see what later iterations computed.
@@ -137,7 +170,7 @@ class Verifier {
     if (uint64_t{instruction.list_first} + instruction.list_count > code_.operand_list.size()) {
       return fail_here("list outside the operand list");
     }
-    const bool color = instruction.op == Opcode::store_color;
+    const bool color = writes_color(instruction.op);
     const uint32_t count = color ? 4 : instruction.op == Opcode::size_2d ? 3 : 5;
     if (instruction.list_count != count) return fail_here("wrong length of the operand list");
     for (uint32_t i = 0; i < count; ++i) {
@@ -213,6 +246,8 @@ class Verifier {
         return instruction.imm + instruction.results <= kMaxVaryingComponents ? true : fail_here("no such varying");
       case Opcode::depth_test:
         return instruction.imm < 16 ? true : fail_here("unknown depth flags");
+      case Opcode::blend_color:
+        return is_blend_word(instruction.imm2) ? true : fail_here("unknown blend equation");
       case Opcode::store_color:
         return instruction.imm2 < 16 ? true : fail_here("unknown colour component");
       default:
@@ -227,7 +262,7 @@ class Verifier {
       return fail_here("the result is no register");
     for (Reg reg = instruction.dst; reg < instruction.dst + instruction.results; ++reg) {
       const RegKind kind = code_.registers[reg].kind;
-      if (kind == RegKind::constant) return fail_here("writes a constant");
+      if (kind == RegKind::constant || kind == RegKind::uniform) return fail_here("writes a constant");
       if (kind == RegKind::variable && instruction.results > 1) return fail_here("writes several variables");
       if (kind == RegKind::value) {
         if (instruction.op == Opcode::set) return fail_here("sets a register that is no variable");

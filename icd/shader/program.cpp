@@ -20,12 +20,6 @@ uint64_t whole_quads(uint64_t lanes) {
   return ((pairs | pairs >> 2) & 0x1111111111111111) * 15;
 }
 
-void broadcast(std::byte* reg, uint32_t bits) {
-  uint32_t lanes[kBatchLanes];
-  std::fill_n(lanes, kBatchLanes, bits);
-  std::memcpy(reg, lanes, sizeof lanes);
-}
-
 }  // namespace
 
 const Descriptor& descriptor_at(const Frame& frame, uint32_t resource, uint32_t index) {
@@ -55,7 +49,7 @@ bool time_is_up(Frame* frame) {
   return true;
 }
 
-// One block of memory: the frame, the registers, the mask registers, the buffers.
+// One block of memory: the frame, the registers, the mask registers, the buffers, the scalars.
 struct Execution::State {
   ~State() { release(); }
 
@@ -72,9 +66,45 @@ struct Execution::State {
     return true;
   }
 
+  // All that depends on the program alone.
+  bool bind(const Program& next) {
+    const Code& code = next.source;
+    const size_t masks = sizeof(Frame) + next.register_count * kRegisterBytes;
+    const size_t ranges = masks + code.mask_count * sizeof(uint64_t);
+    const size_t scalars = ranges + code.resources.size() * sizeof(BufferRange);
+    if (!reserve(scalars + next.scalar_count * sizeof(uint32_t))) return false;
+    frame = new (memory) Frame;
+    frame->masks = new (memory + masks) uint64_t[code.mask_count];
+    buffers = new (memory + ranges) BufferRange[code.resources.size()];
+    frame->buffers = buffers;
+    frame->scalars = new (memory + scalars) uint32_t[next.scalar_count];
+    frame->last = &next.ops.back();
+    frame->refs = code.resources.data();
+    frame->lists = next.lists.data();
+    frame->attributes = next.attributes.data();
+    frame->colors = next.colors.data();
+    frame->depth = next.depth;
+    frame->sampling = next.sampling;
+    std::copy_n(code.workgroup_size, 3, frame->workgroup_size);
+    std::copy(next.constants.begin(), next.constants.end(), frame->scalars);
+    entry = &interpreter_run(next.target);
+    spread = &interpreter_spread(next.target);
+    spread(next.constant_lanes, frame);
+    program = &next;
+    program_id = next.id;
+    return true;
+  }
+
+  void run_once() {
+    once_is_due = false;
+    entry(program->once.data(), frame);
+    spread(program->uniform_lanes, frame);
+  }
+
   void run(uint64_t exec, uint64_t write) {
     if (write == 0) return;
     if (frame->limits != nullptr && frame->limits->expired.load(std::memory_order_relaxed)) return;
+    if (once_is_due) run_once();
     frame->exec = exec;
     frame->write = write;
     frame->lanes = write;
@@ -84,10 +114,14 @@ struct Execution::State {
 
   std::byte* memory = nullptr;
   size_t capacity = 0;
-  uint64_t program_id = 0;  // whose constants are in the registers
+  uint64_t program_id = 0;  // that the memory is laid out for; 0: none
   const Program* program = nullptr;
   Frame* frame = nullptr;
+  BufferRange* buffers = nullptr;
   Run* entry = nullptr;
+  SpreadScalars* spread = nullptr;
+  bool once_is_due = false;
+  float blend_constants[4] = {};  // that the once section has seen
 };
 
 Execution::Execution() = default;
@@ -97,36 +131,13 @@ bool Execution::prepare(const Program& program, const ResourceTable& resources, 
   if (state_ == nullptr) state_.reset(new (std::nothrow) State);
   if (state_ == nullptr) return false;
   State& state = *state_;
-  const Code& code = program.source;
-  const size_t registers_end = sizeof(Frame) + program.register_count * kRegisterBytes;
-  const size_t masks_end = registers_end + code.mask_count * sizeof(uint64_t);
-  if (!state.reserve(masks_end + code.resources.size() * sizeof(BufferRange))) return false;
-
-  Frame* const frame = new (state.memory) Frame;
-  frame->masks = new (state.memory + registers_end) uint64_t[code.mask_count];
+  if (state.program_id != program.id && !state.bind(program)) return false;
+  Frame* const frame = state.frame;
   frame->limits = limits;
-  frame->last = &program.ops.back();
   frame->resources = &resources;
-  frame->refs = code.resources.data();
-  frame->lists = program.lists.data();
-  frame->attributes = program.attributes.data();
-  frame->colors = program.colors.data();
-  frame->depth = program.depth;
-  frame->sampling = program.sampling;
-  std::copy_n(code.workgroup_size, 3, frame->workgroup_size);
-  BufferRange* const buffers = new (state.memory + masks_end) BufferRange[code.resources.size()];
-  for (uint32_t i = 0; i < code.resources.size(); ++i) buffers[i] = buffer_at(*frame, i, 0);
-  frame->buffers = buffers;
-
-  state.frame = frame;
-  state.program = &program;
-  state.entry = &interpreter_run(program.target);
-  if (state.program_id != program.id) {
-    for (const Program::Constant& constant : program.constants) {
-      broadcast(frame->registers() + constant.reg * kRegisterBytes, constant.bits);
-    }
-    state.program_id = program.id;
-  }
+  const size_t count = program.source.resources.size();
+  for (uint32_t i = 0; i < count; ++i) state.buffers[i] = buffer_at(*frame, i, 0);
+  state.once_is_due = !program.once.empty();
   return true;
 }
 
@@ -136,7 +147,13 @@ void Execution::run_vertices(const VertexBatch& batch, uint64_t lanes) {
 }
 
 void Execution::run_fragments(const FragmentBatch& batch, uint64_t lanes) {
-  state_->frame->fragments = &batch;
+  State& state = *state_;
+  state.frame->fragments = &batch;
+  if (state.program->once_reads_batch &&
+      !std::equal(batch.blend_constants, batch.blend_constants + 4, state.blend_constants)) {
+    std::copy_n(batch.blend_constants, 4, state.blend_constants);
+    state.once_is_due = true;
+  }
   state_->run(whole_quads(lanes), lanes);
 }
 

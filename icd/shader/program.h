@@ -29,6 +29,9 @@ Result<ProgramPtr> assemble(Code code);
 
 std::string disassemble(const Program& program);
 uint32_t register_count(const Program& program);  // of 256 bytes each
+// Of the section that runs once per draw, and of one batch in which every op runs once; in the unit of ops.def.
+uint32_t once_cost(const Program& program);
+uint32_t lane_cost(const Program& program);
 const Code& source(
     const Program& program);  // after the passes; tables (attributes, resources, workgroup size) as built
 

@@ -9,23 +9,24 @@
 namespace lapilli {
 
 struct Program {
-  struct Constant {
-    uint16_t reg;
-    uint32_t bits;
-  };
-
   uint64_t id = 0;  // never used twice
   SimdTarget target = SimdTarget::kBaseline;
   Code source;
   std::vector<uint8_t> forms;  // of source.instructions, which are the ops one to one
   std::vector<Op> ops;
   std::vector<uint16_t> lists;
-  std::vector<Constant> constants;
+  std::vector<Op> once;                // source.once, then `end`
+  std::vector<uint32_t> constants;     // the first scalars
+  std::vector<Spread> constant_lanes;  // registers that hold a constant
+  std::vector<Spread> uniform_lanes;   // registers that hold a result of `once`
+  uint32_t scalar_count = 0;
+  bool once_reads_batch = false;  // blend constants
   std::vector<Attribute> attributes;
   std::vector<const TexelFunctions*> colors;
   const TexelFunctions* depth = nullptr;
   const SamplingFunctions* sampling = nullptr;
   uint32_t register_count = 0;
+  uint32_t once_cost = 0, lane_cost = 0;
 };
 
 }  // namespace lapilli

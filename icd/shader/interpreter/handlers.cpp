@@ -13,8 +13,8 @@ using Table = std::array<TargetTable, kSimdTargetCount>;
 
 Table make_table() {
   const PerTarget<ListHandlers>* const files[] = {
-      &kArithmeticHandlers, &kMathHandlers,  &kIntegerHandlers, &kCompareHandlers,  &kConvertHandlers,
-      &kMemoryHandlers,     &kImageHandlers, &kInputHandlers,   &kFragmentHandlers, &kControlHandlers};
+      &kArithmeticHandlers, &kMathHandlers,  &kIntegerHandlers,  &kCompareHandlers, &kConvertHandlers, &kMemoryHandlers,
+      &kImageHandlers,      &kInputHandlers, &kFragmentHandlers, &kControlHandlers, &kOnceHandlers};
   Table table = {};
   for (size_t target = 0; target < kSimdTargetCount; ++target) {
     for (const PerTarget<ListHandlers>* file : files) {
@@ -34,5 +34,6 @@ Handler find_handler(SimdTarget target, Opcode op, uint32_t form) {
 }
 
 Run& interpreter_run(SimdTarget target) { return for_target(kRun, target); }
+SpreadScalars& interpreter_spread(SimdTarget target) { return for_target(kSpread, target); }
 
 }  // namespace lapilli

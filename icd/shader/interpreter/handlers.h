@@ -17,7 +17,10 @@ extern const PerTarget<ListHandlers> kImageHandlers;
 extern const PerTarget<ListHandlers> kInputHandlers;
 extern const PerTarget<ListHandlers> kFragmentHandlers;
 extern const PerTarget<ListHandlers> kControlHandlers;
+extern const PerTarget<ListHandlers> kOnceHandlers;
 // In control.cpp.
 extern const PerTarget<Run> kRun;
+// In once.cpp.
+extern const PerTarget<SpreadScalars> kSpread;
 
 }  // namespace lapilli

@@ -179,8 +179,9 @@ struct op_ddy_coarse {
 };
 
 const HandlerEntry kEntries[] = {
-    LAPILLI_FAT(builtin, true),   LAPILLI_FAT(fetch, true),       LAPILLI_COLD(ddx_fine, F(F)),
-    LAPILLI_COLD(ddy_fine, F(F)), LAPILLI_COLD(ddx_coarse, F(F)), LAPILLI_COLD(ddy_coarse, F(F)),
+    LAPILLI_FAT(builtin, true),           LAPILLI_FAT(fetch, true),
+    LAPILLI_COLD_LANES(ddx_fine, F(F)),   LAPILLI_COLD_LANES(ddy_fine, F(F)),
+    LAPILLI_COLD_LANES(ddx_coarse, F(F)), LAPILLI_COLD_LANES(ddy_coarse, F(F)),
 };
 
 }  // namespace

@@ -82,29 +82,53 @@ struct As<U, I> {
   static HWY_INLINE U cast(I v) { return as_u(v); }
 };
 
+// Where operands come from: registers, or scalars, which fill a vector.
+struct FromLanes {
+  static HWY_INLINE U get(const std::byte* at) { return load<U>(at); }
+};
+struct FromScalars {
+  static HWY_INLINE U get(const std::byte* at) { return broadcast(*reinterpret_cast<const uint32_t*>(at)); }
+};
+
 // One vector of a lane op: Body::run of its operands, which are the registers a, b, c or the accumulator x.
-template <class Body, int kForm, class Signature>
+template <class Body, int kForm, class Signature, class From = FromLanes>
 struct Step;
-template <class Body, int kForm, class R, class A>
-struct Step<Body, kForm, R(A)> {
+template <class Body, int kForm, class R, class A, class From>
+struct Step<Body, kForm, R(A), From> {
   static HWY_INLINE U run(const std::byte* a, const std::byte*, const std::byte*, U x) {
-    return As<U, R>::cast(Body::run(As<A, U>::cast((kForm & 6) == kAccumulatorIsA ? x : load<U>(a))));
+    return As<U, R>::cast(Body::run(As<A, U>::cast((kForm & 6) == kAccumulatorIsA ? x : From::get(a))));
   }
 };
-template <class Body, int kForm, class R, class A, class B>
-struct Step<Body, kForm, R(A, B)> {
+template <class Body, int kForm, class R, class A, class B, class From>
+struct Step<Body, kForm, R(A, B), From> {
   static HWY_INLINE U run(const std::byte* a, const std::byte* b, const std::byte*, U x) {
-    return As<U, R>::cast(Body::run(As<A, U>::cast((kForm & 6) == kAccumulatorIsA ? x : load<U>(a)),
-                                    As<B, U>::cast((kForm & 6) == kAccumulatorIsB ? x : load<U>(b))));
+    return As<U, R>::cast(Body::run(As<A, U>::cast((kForm & 6) == kAccumulatorIsA ? x : From::get(a)),
+                                    As<B, U>::cast((kForm & 6) == kAccumulatorIsB ? x : From::get(b))));
   }
 };
-template <class Body, int kForm, class R, class A, class B, class C>
-struct Step<Body, kForm, R(A, B, C)> {
+template <class Body, int kForm, class R, class A, class B, class C, class From>
+struct Step<Body, kForm, R(A, B, C), From> {
   static HWY_INLINE U run(const std::byte* a, const std::byte* b, const std::byte* c, U x) {
-    return As<U, R>::cast(Body::run(As<A, U>::cast((kForm & 6) == kAccumulatorIsA ? x : load<U>(a)),
-                                    As<B, U>::cast((kForm & 6) == kAccumulatorIsB ? x : load<U>(b)),
-                                    As<C, U>::cast((kForm & 6) == kAccumulatorIsC ? x : load<U>(c))));
+    return As<U, R>::cast(Body::run(As<A, U>::cast((kForm & 6) == kAccumulatorIsA ? x : From::get(a)),
+                                    As<B, U>::cast((kForm & 6) == kAccumulatorIsB ? x : From::get(b)),
+                                    As<C, U>::cast((kForm & 6) == kAccumulatorIsC ? x : From::get(c))));
   }
+};
+
+// A lane op on scalars: the same body, in one vector that holds the scalar in all lanes.
+template <class Body, class Signature>
+struct Once {
+  static HWY_INLINE const Op* run(const Op* op, Frame* frame) {
+    const std::byte* const scalars = reinterpret_cast<const std::byte*>(frame->scalars);
+    const U result = Step<Body, kFromRegisters, Signature, FromScalars>::run(scalars + 4 * op->a, scalars + 4 * op->b,
+                                                                             scalars + 4 * op->c, zero_u());
+    frame->scalars[op->dst] = first_lane(result);
+    return op + 1;
+  }
+};
+template <class Body, class Signature>
+struct BigOnce {
+  static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) { return Once<Body, Signature>::run(op, frame); }
 };
 
 #if LAPILLI_TAIL_CALLS
@@ -251,9 +275,12 @@ struct Loop {
 // Lines of a file's table. HOT: all forms of which the op has operands. COLD: loads all, stores.
 #define LAPILLI_FORM(name, signature, form) \
   HandlerEntry { Opcode::name, form, reinterpret_cast<Handler>(&Lane<op_##name, signature, form>::handler) }
-#define LAPILLI_HOT1(name, signature)                                          \
-  LAPILLI_FORM(name, signature, kKeep), LAPILLI_FORM(name, signature, kStore), \
-      LAPILLI_FORM(name, signature, kAccumulatorIsA), LAPILLI_FORM(name, signature, kAccumulatorIsA | kStore)
+#define LAPILLI_ONCE(name, ...) \
+  HandlerEntry { Opcode::name, kOnce, reinterpret_cast<Handler>(&__VA_ARGS__::handler) }
+#define LAPILLI_HOT1(name, signature)                                                            \
+  LAPILLI_ONCE(name, Control<Once<op_##name, signature>>), LAPILLI_FORM(name, signature, kKeep), \
+      LAPILLI_FORM(name, signature, kStore), LAPILLI_FORM(name, signature, kAccumulatorIsA),     \
+      LAPILLI_FORM(name, signature, kAccumulatorIsA | kStore)
 #define LAPILLI_HOT2(name, signature)                                            \
   LAPILLI_HOT1(name, signature), LAPILLI_FORM(name, signature, kAccumulatorIsB), \
       LAPILLI_FORM(name, signature, kAccumulatorIsB | kStore)
@@ -265,6 +292,9 @@ struct Loop {
   LAPILLI_HOT1(name, signature), LAPILLI_FORM(name, signature, kAccumulatorIsC), \
       LAPILLI_FORM(name, signature, kAccumulatorIsC | kStore)
 #define LAPILLI_COLD(name, signature) \
+  LAPILLI_COLD_LANES(name, signature), LAPILLI_ONCE(name, Fat<BigOnce<op_##name, signature>, false>)
+// Without a scalar form.
+#define LAPILLI_COLD_LANES(name, signature) \
   HandlerEntry { Opcode::name, kStore, reinterpret_cast<Handler>(&Fat<Loop<op_##name, signature>, true>::handler) }
 // Bodies of whole ops: `static HWY_NOINLINE const Op* run(const Op*, Frame*)`. one_result: there may be exactly one.
 #define LAPILLI_FAT(name, one_result) \

@@ -44,7 +44,9 @@ enum Form : uint8_t {
   kAccumulatorIsB = 4,
   kAccumulatorIsC = 6,
 };
-constexpr uint32_t kFormCount = 8;
+// On scalars, in the section that runs once per draw: operands and results are places in Frame::scalars.
+constexpr uint32_t kOnce = 8;
+constexpr uint32_t kFormCount = 9;
 
 struct HandlerEntry {
   Opcode op;
@@ -65,6 +67,12 @@ struct Attribute {
   const TexelFunctions* texels = nullptr;
 };
 
+// A register all lanes of which hold a scalar.
+struct Spread {
+  uint16_t reg;
+  uint16_t scalar;
+};
+
 // The state of one running program. The registers follow it in memory, the mask registers follow them.
 struct alignas(64) Frame {
   uint64_t exec = 0;   // lanes that run, helper lanes included
@@ -78,6 +86,7 @@ struct alignas(64) Frame {
   const ResourceTable* resources = nullptr;
   const ResourceRef* refs = nullptr;
   const BufferRange* buffers = nullptr;  // array element 0 of each resource
+  uint32_t* scalars = nullptr;           // constants, and what is the same in all lanes of a draw
   const uint16_t* lists = nullptr;       // registers of operand lists
   const Attribute* attributes = nullptr;
   const TexelFunctions* const* colors = nullptr;  // one for each colour attachment
@@ -106,6 +115,9 @@ BufferRange buffer_at(const Frame& frame, uint32_t resource, uint32_t index);
 // What one target's code offers.
 using Run = void(const Op* first, Frame* frame);
 Run& interpreter_run(SimdTarget target);
+// Fills registers with scalars.
+using SpreadScalars = void(std::span<const Spread> list, Frame* frame);
+SpreadScalars& interpreter_spread(SimdTarget target);
 // Null where the op has no such form.
 Handler find_handler(SimdTarget target, Opcode op, uint32_t form);
 

@@ -111,7 +111,7 @@ TEST(LaneOps, AllFormsMatchTheReferenceOnAllTargets) {
     for (SimdTarget target : supported_simd_targets()) {
       TestFrame frame(target);
       ASSERT_NE(find_handler(target, reference.op, kStore), nullptr) << name;
-      for (uint32_t form = 0; form < kFormCount; ++form) {
+      for (uint32_t form = 0; form < kOnce; ++form) {
         if (find_handler(target, reference.op, form) == nullptr) continue;
         for (size_t batch = 0; batch < inputs().size(); ++batch) {
           const Inputs& in = inputs()[batch];
@@ -153,12 +153,47 @@ TEST(LaneOps, EveryPureOpHasAReference) {
   }
 }
 
+// What runs once per draw has the bits of what runs in lanes: each lane of a batch, once more as a scalar.
+TEST(LaneOps, ScalarFormsHaveTheBitsOfTheLanes) {
+  for (const OpReference& reference : op_references()) {
+    const char* const name = op_info(reference.op).name;
+    for (SimdTarget target : supported_simd_targets()) {
+      const bool crosses_lanes = (op_info(reference.op).effects & kCrossLane) != 0;
+      ASSERT_EQ(find_handler(target, reference.op, kOnce) == nullptr, crosses_lanes) << name;
+      if (crosses_lanes) continue;
+      TestFrame frame(target);
+      for (size_t batch = 0; batch < inputs().size(); batch += 3) {
+        const Inputs& in = inputs()[batch];
+        Lanes lanes, scalars;
+        run_form(frame, reference.op, kStore, in, lanes);
+        for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
+          std::array<uint32_t, 4> file;
+          for (size_t k = 0; k < 3; ++k) file[k] = in.operands[k][lane];
+          Op op = {};
+          op.a = 0, op.b = 1, op.c = 2, op.dst = 3;
+          frame.frame().scalars = file.data();
+          frame.add(reference.op, kOnce, op);
+          frame.run();
+          scalars[lane] = file[3];
+        }
+        // Which of two NaN comes out is the compiler's choice; they are the same to all that follows.
+        for (uint32_t lane = 0; reference.float_result && lane < kBatchLanes; ++lane) {
+          if (is_nan_bits(lanes[lane]) && is_nan_bits(scalars[lane])) scalars[lane] = lanes[lane];
+        }
+        ASSERT_EQ(lanes, scalars) << name << ' ' << simd_target_name(target);
+      }
+    }
+  }
+}
+
 // The choice of forms asks one target what all of them have.
 TEST(Handlers, AllTargetsHaveTheSameForms) {
   for (uint32_t i = 0; i < static_cast<uint32_t>(Opcode::kCount); ++i) {
     const Opcode op = static_cast<Opcode>(i);
     for (SimdTarget target : supported_simd_targets()) {
       EXPECT_NE(find_handler(target, op, kStore), nullptr) << op_info(op).name << ' ' << simd_target_name(target);
+      const bool scalar_pure = (op_info(op).effects & ~static_cast<uint32_t>(kCommutes)) == kPure;
+      EXPECT_TRUE(!scalar_pure || find_handler(target, op, kOnce) != nullptr) << op_info(op).name;
       for (uint32_t form = 0; form < kFormCount; ++form) {
         EXPECT_EQ(find_handler(target, op, form) == nullptr, find_handler(SimdTarget::kBaseline, op, form) == nullptr)
             << op_info(op).name << ' ' << simd_target_name(target) << " form " << form;

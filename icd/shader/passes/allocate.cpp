@@ -55,7 +55,7 @@ class Allocator {
 
   Allocation run() {
     for (Reg reg = 0; reg < code_.registers.size(); ++reg) {
-      if (code_.registers[reg].kind == RegKind::constant && choice_.in_memory[reg] != 0) physical_[reg] = free_.take(1);
+      if (is_fixed(reg) && choice_.in_memory[reg] != 0) physical_[reg] = free_.take(1);
     }
     sort_intervals();
     for (uint32_t i = 0; i < code_.instructions.size(); ++i) {
@@ -75,9 +75,12 @@ class Allocator {
   }
 
  private:
+  // Holds its value for the whole program.
+  bool is_fixed(Reg reg) const {
+    return code_.registers[reg].kind == RegKind::constant || code_.registers[reg].kind == RegKind::uniform;
+  }
   bool is_placed(Reg reg) const {
-    return choice_.in_memory[reg] != 0 && code_.registers[reg].kind != RegKind::constant &&
-           intervals_[reg].first != Interval::kNever;
+    return choice_.in_memory[reg] != 0 && !is_fixed(reg) && intervals_[reg].first != Interval::kNever;
   }
 
   // Registers by the instruction at which their interval begins and ends.

@@ -66,7 +66,7 @@ class Liveness {
 
   void touch(Reg reg, uint32_t i) {
     const RegKind kind = code_.registers[reg].kind;
-    if (kind == RegKind::constant) return;
+    if (kind == RegKind::constant || kind == RegKind::uniform) return;
     Interval& interval = intervals_[reg];
     uint32_t first = i;
     uint32_t last = i;

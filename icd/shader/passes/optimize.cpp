@@ -1,4 +1,5 @@
 // The order of the passes, and what they share.
+#include "base/removals.h"
 #include "shader/passes/passes.h"
 
 namespace lapilli {
@@ -6,12 +7,24 @@ namespace lapilli {
 void optimize(Code& code, SimdTarget target) {
   simplify(code, target);
   remove_dead_code(code);
+  if (!keeps(Removal::uniforms)) split_once(code);
   schedule(code);
 }
 
 bool is_pure(const Instruction& instruction) {
   constexpr uint32_t kImpure = kReadsMemory | kWritesMemory | kControl | kMasked | kBatchInput;
   return instruction.results == 1 && (op_info(instruction.op).effects & kImpure) == 0;
+}
+
+size_t hash_of(const Instruction& i) {
+  uint64_t h = static_cast<uint64_t>(i.op) + (uint64_t{i.results} << 16);
+  for (uint32_t word : {i.a, i.b, i.c, i.imm, i.imm2}) h = (h ^ word) * 0x9E3779B97F4A7C15;
+  return static_cast<size_t>(h >> 32);
+}
+
+bool computes_the_same(const Instruction& x, const Instruction& y) {
+  return x.op == y.op && x.results == y.results && x.a == y.a && x.b == y.b && x.c == y.c && x.imm == y.imm &&
+         x.imm2 == y.imm2;
 }
 
 std::vector<uint8_t> block_starts(const Code& code) {

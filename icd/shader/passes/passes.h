@@ -10,7 +10,7 @@
 
 namespace lapilli {
 
-// All of the passes below, up to scheduling.
+// All of the passes below, up to scheduling; split_once unless LAPILLI_KEEP names uniforms.
 void optimize(Code& code, SimdTarget target);
 
 // Constant folding, forwarding of copies, algebra that keeps every bit, common subexpressions within a block, stores to
@@ -19,6 +19,9 @@ void simplify(Code& code, SimdTarget target);
 
 // Removes what has no effect and whose results nobody reads, and results at the ends of multi-result instructions.
 void remove_dead_code(Code& code);
+
+// Moves what is the same in all lanes of a draw to Code::once.
+void split_once(Code& code);
 
 // Within each block, moves each expression that is used once to the place before its use, so that the use finds it in
 // the accumulator.
@@ -52,6 +55,9 @@ Allocation allocate_registers(const Code& code, const FormChoice& choice);
 
 // Depends on its operands only, and has one result.
 bool is_pure(const Instruction& instruction);
+// For tables of instructions without operand lists: results aside.
+size_t hash_of(const Instruction& instruction);
+bool computes_the_same(const Instruction& x, const Instruction& y);
 // 1 for each instruction that begins a block: at a label, or after a control instruction.
 std::vector<uint8_t> block_starts(const Code& code);
 // Drops the instructions whose mark is 0; labels follow.

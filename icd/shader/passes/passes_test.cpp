@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/removals.h"
 #include "shader/program.h"
 
 namespace lapilli {
@@ -23,10 +24,15 @@ void output(Code& code, Reg reg, uint32_t slot = 0) {
   code.emit_void(Opcode::store_output, reg, kNoReg, kNoReg, slot);
 }
 
-Code finished(Code code) {
+constexpr uint32_t kUniforms = 1u << static_cast<uint32_t>(Removal::uniforms);
+
+// Push constants stand for values of any kind here; but for the tests of Once they stay in lanes.
+Code finished(Code code, bool split = false) {
   code.emit_void(Opcode::end);
   EXPECT_EQ(verify(code), "") << disassemble(code);
+  set_kept_removals(split ? 0 : kUniforms);
   optimize(code, simd_target());
+  set_kept_removals(0);
   EXPECT_EQ(verify(code), "") << disassemble(code);
   return code;
 }
@@ -163,6 +169,97 @@ TEST(DeadCode, KeepsArraysThatAreRead) {
   EXPECT_EQ(count(code, Opcode::mov), 1u);
 }
 
+// --- Once -------------------------------------------------------------------------------------------------------
+
+Reg lane_index(Code& code) {
+  return code.emit(Opcode::builtin, kNoReg, kNoReg, kNoReg, static_cast<uint32_t>(BuiltIn::lane_index));
+}
+uint32_t count_once(const Code& code, Opcode op) {
+  uint32_t n = 0;
+  for (const Instruction& instruction : code.once) n += instruction.op == op ? 1 : 0;
+  return n;
+}
+
+TEST(Once, TakesWhatDependsOnNoLane) {
+  Code code;
+  const Reg same = code.emit(Opcode::fsin, code.emit(Opcode::fmul, push(code), push(code, 1)));
+  const Reg other = code.emit(Opcode::s_to_f, lane_index(code));
+  output(code, code.emit(Opcode::fadd, same, other));
+  code = finished(std::move(code), true);
+  EXPECT_EQ(count_once(code, Opcode::load_push) + count_once(code, Opcode::fmul) + count_once(code, Opcode::fsin), 4u);
+  EXPECT_EQ(code.once.size(), 4u) << disassemble(code);
+  EXPECT_EQ(code.instructions.size(), 5u) << disassemble(code);  // builtin, s_to_f, fadd, store_output, end
+}
+
+TEST(Once, LeavesVariablesAndDifferencesOfLanes) {
+  Code code;
+  const Reg variable = code.new_variable();
+  code.emit_to(Opcode::mov, variable, push(code));
+  code.emit_set(variable, push(code, 1));
+  output(code, code.emit(Opcode::fneg, variable));
+  output(code, code.emit(Opcode::ddx_fine, push(code, 2)), 1);
+  code = finished(std::move(code), true);
+  EXPECT_EQ(code.once.size(), count_once(code, Opcode::load_push)) << disassemble(code);
+  EXPECT_EQ(count(code, Opcode::fneg) + count(code, Opcode::ddx_fine), 2u);
+}
+
+// A branch that only some lanes take, with a load and arithmetic in it.
+Code with_branch(bool stores, bool uniform_block, bool derivative) {
+  Code code;
+  ResourceRef ref;
+  ref.uniform = uniform_block;
+  code.add_resource(ref);
+  const uint32_t mask = code.new_mask(), behind = code.new_mask();
+  const uint32_t skip = code.new_label(), end = code.new_label();
+  const Reg lane = lane_index(code), address = push(code);
+  const Reg variable = code.new_variable();
+  code.emit_to(Opcode::mov, variable, lane);
+  code.emit_void(Opcode::branch_if, code.emit(Opcode::slt, lane, address), kNoReg, kNoReg, mask, behind);
+  code.emit_void(Opcode::enter, kNoReg, kNoReg, kNoReg, mask, skip);
+  const Reg loaded = code.emit_n(Opcode::load_buffer, 1, address);
+  code.emit_set(variable, code.emit(Opcode::iadd, loaded, code.emit(Opcode::imul, address, address)));
+  code.emit_void(Opcode::branch, kNoReg, kNoReg, kNoReg, behind);
+  code.place_label(skip);
+  code.emit_void(Opcode::enter, kNoReg, kNoReg, kNoReg, behind, end);
+  output(code, code.emit(Opcode::imul, address, address), 1);
+  if (stores) code.emit_void(Opcode::store_buffer, lane, variable);
+  output(code, derivative ? code.emit(Opcode::ddx_fine, variable) : variable);
+  code.place_label(end);
+  return finished(std::move(code), true);
+}
+
+TEST(Once, TakesWhatIsPureOutOfBranches) {
+  const Code code = with_branch(false, false, false);
+  EXPECT_EQ(count_once(code, Opcode::load_buffer), 1u) << disassemble(code);
+  EXPECT_EQ(count_once(code, Opcode::imul), 1u) << disassemble(code);  // once for both of its places
+  EXPECT_EQ(count(code, Opcode::imul) + count(code, Opcode::iadd), 0u);
+}
+
+TEST(Once, LeavesLoadsOfWhatMayChange) {
+  EXPECT_EQ(count_once(with_branch(true, false, false), Opcode::load_buffer), 0u);
+  EXPECT_EQ(count_once(with_branch(true, true, false), Opcode::load_buffer), 1u);
+}
+
+// Idle lanes of a load in a branch read 0, and their neighbours may see it.
+TEST(Once, LeavesLoadsInBranchesWhereLanesSeeOneAnother) {
+  EXPECT_EQ(count_once(with_branch(false, true, true), Opcode::load_buffer), 0u);
+}
+
+TEST(Once, CostsAreThoseOfTheTable) {
+  Code code;
+  const Reg same = code.emit(Opcode::fsin, push(code));
+  output(code, code.emit(Opcode::fadd, same, lane_index(code)));
+  code.emit_void(Opcode::end);
+  const Result<ProgramPtr> split = assemble(code);
+  set_kept_removals(kUniforms);
+  const Result<ProgramPtr> whole = assemble(code);
+  set_kept_removals(0);
+  ASSERT_TRUE(split.ok() && whole.ok());
+  EXPECT_EQ(once_cost(**split), op_info(Opcode::load_push).cost + op_info(Opcode::fsin).cost);
+  EXPECT_EQ(once_cost(**whole), 0u);
+  EXPECT_EQ(lane_cost(**whole), once_cost(**split) + lane_cost(**split));
+}
+
 TEST(Schedule, ChainsNeedNoRegisters) {
   // Two polynomials, their terms interleaved as a compiler for vectors would emit them.
   Code code;
@@ -174,7 +271,9 @@ TEST(Schedule, ChainsNeedNoRegisters) {
   }
   output(code, code.emit(Opcode::fsub, p, q));
   code.emit_void(Opcode::end);
+  set_kept_removals(kUniforms);
   const Result<ProgramPtr> program = assemble(std::move(code));
+  set_kept_removals(0);
   ASSERT_TRUE(program.ok());
   const std::string text = disassemble(**program);
   size_t kept = 0;
@@ -242,7 +341,9 @@ TEST(Allocation, SharesRegistersThatAreNotLiveTogether) {
   }
   output(code, sum);
   code.emit_void(Opcode::end);
+  set_kept_removals(kUniforms);
   const Result<ProgramPtr> program = assemble(std::move(code));
+  set_kept_removals(0);
   ASSERT_TRUE(program.ok());
   EXPECT_LE(register_count(**program), 8u) << disassemble(**program);
 }

@@ -171,14 +171,14 @@ class Simplifier {
 
     const bool from_memory = (info.effects & kReadsMemory) != 0;
     const size_t mask = table_.size() - 1;
-    size_t slot = hash(instruction) & mask;
+    size_t slot = hash_of(instruction) & mask;
     for (; table_[slot] != kNone; slot = (slot + 1) & mask) {
       const uint32_t other = table_[slot];
       const bool entry = block_of_[other] == kEntryBlock && !from_memory;
       if (block_of_[other] != block_ && !entry) continue;
       if (from_memory && epoch_of_[other] != epoch_) continue;
       const Instruction& earlier = code_.instructions[other];
-      if (!same(earlier, instruction)) continue;
+      if (!computes_the_same(earlier, instruction)) continue;
       for (uint32_t i = 0; i < instruction.results; ++i) values_[instruction.dst + i].same_as = earlier.dst + i;
       return true;
     }
@@ -186,16 +186,6 @@ class Simplifier {
     block_of_[at_] = block_;
     epoch_of_[at_] = epoch_;
     return false;
-  }
-
-  static size_t hash(const Instruction& i) {
-    uint64_t h = static_cast<uint64_t>(i.op) + (uint64_t{i.results} << 16);
-    for (uint32_t word : {i.a, i.b, i.c, i.imm, i.imm2}) h = (h ^ word) * 0x9E3779B97F4A7C15;
-    return static_cast<size_t>(h >> 32);
-  }
-  static bool same(const Instruction& x, const Instruction& y) {
-    return x.op == y.op && x.results == y.results && x.a == y.a && x.b == y.b && x.c == y.c && x.imm == y.imm &&
-           x.imm2 == y.imm2;
   }
 
   void note_writes(const Instruction& instruction) {

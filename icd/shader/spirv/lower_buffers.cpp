@@ -59,12 +59,13 @@ void Lowering::collect_offsets(const Pointer& from, std::vector<uint64_t>& offse
 }
 
 // Resource of a descriptor, and the register with its index in an array that is indexed at run time.
-std::pair<uint32_t, Reg> Lowering::resolve_descriptor(const BindingSlot* slot, uint32_t offset, Reg dynamic) {
+std::pair<uint32_t, Reg> Lowering::resolve_descriptor(const BindingSlot* slot, uint32_t offset, Reg dynamic,
+                                                      bool uniform) {
   if (slot == nullptr) {
     fail("a descriptor's binding is not in the pipeline layout");
     return {code_.add_resource({}), kNoReg};
   }
-  ResourceRef ref{slot->set, slot->first, slot->count, slot->dynamic_offset};
+  ResourceRef ref{slot->set, slot->first, slot->count, slot->dynamic_offset, uniform};
   if (dynamic != kNoReg)
     return {code_.add_resource(ref), offset == 0 ? dynamic : emit(Opcode::iadd, dynamic, constant(offset))};
   if (offset >= slot->count) fail("the binding has no descriptor " + std::to_string(offset));
@@ -83,7 +84,9 @@ std::vector<Reg> Lowering::load_memory(const Pointer& from) {
   const bool push = from.space == Space::push;
   uint32_t resource = 0;
   Reg descriptor = kNoReg;
-  if (!push) std::tie(resource, descriptor) = resolve_descriptor(from.slot, from.descriptor_offset, from.descriptor);
+  if (!push)
+    std::tie(resource, descriptor) =
+        resolve_descriptor(from.slot, from.descriptor_offset, from.descriptor, from.uniform);
   const bool fixed = from.dynamic == kNoReg && (push || (from.uniform && descriptor == kNoReg));
   const size_t most = fixed ? kUniformResults : kBufferResults;
   for (size_t i = 0; i < offsets.size() && !failed();) {

@@ -207,7 +207,8 @@ class Lowering {
   void collect_offsets(const Pointer& from, std::vector<uint64_t>& offsets, std::vector<Kind>& kinds);
   std::vector<Reg> load_memory(const Pointer& from);
   void store_memory(const Pointer& to, std::span<const Reg> values);
-  std::pair<uint32_t, Reg> resolve_descriptor(const BindingSlot* slot, uint32_t offset, Reg dynamic);
+  std::pair<uint32_t, Reg> resolve_descriptor(const BindingSlot* slot, uint32_t offset, Reg dynamic,
+                                              bool uniform = false);
   void lower_load(const SpirvInst& inst);
   void lower_array_length(const SpirvInst& inst);
   uint32_t descriptors_in(uint32_t type);

@@ -1,0 +1,90 @@
+// What it costs to make the programs of a pipeline, from a module that is parsed already and from its words.
+#include <benchmark/benchmark.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "shader/stage_code.h"
+#include "shaders/corpus.h"
+
+namespace lapilli {
+namespace {
+
+struct Setting {
+  std::vector<BindingSlot> slots;
+  std::vector<VertexAttribute> attributes;
+  std::vector<VkFormat> formats = std::vector<VkFormat>(1, VK_FORMAT_B8G8R8A8_UNORM);
+  std::vector<VkPipelineColorBlendAttachmentState> blend = std::vector<VkPipelineColorBlendAttachmentState>(1);
+  GraphicsState state;
+
+  Setting() {
+    for (uint32_t set = 0; set < 4; ++set) {
+      for (uint32_t binding = 0; binding < 8; ++binding)
+        slots.push_back({set, binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_ALL, binding, 1, -1});
+    }
+    for (uint32_t location = 0; location < 8; ++location)
+      attributes.push_back({location, 0, 16 * location, VK_FORMAT_R32G32B32A32_SFLOAT});
+    blend[0].colorWriteMask = 0xF;
+    state.attributes = attributes;
+    state.color_formats = formats;
+    state.blend = blend;
+    state.depth_test = state.depth_write = true;
+    state.depth_compare = VK_COMPARE_OP_LESS;
+  }
+  ResourceLayout layout() const { return {slots, kMaxPushConstantBytes}; }
+};
+
+std::shared_ptr<const SpirvModule> parsed(std::span<const uint32_t> words) {
+  Result<std::shared_ptr<const SpirvModule>> module = parse_spirv(words);
+  return module.ok() ? *module : nullptr;
+}
+
+void parse(benchmark::State& bench, const CorpusShader& shader) {
+  for (auto _ : bench) benchmark::DoNotOptimize(parse_spirv(shader.words));
+}
+
+void build(benchmark::State& bench, const CorpusShader& vertex_shader, const CorpusShader& fragment_shader) {
+  const Setting setting;
+  const ShaderStage vertex{parsed(vertex_shader.words), "main", {}};
+  const ShaderStage fragment{parsed(fragment_shader.words), "main", {}};
+  if (std::getenv("LAPILLI_DUMP") != nullptr) {
+    const Result<GraphicsPrograms> programs = build_graphics(vertex, &fragment, setting.state, setting.layout());
+    if (programs) {
+      std::printf("%s\n%s\n%s\n%s\n", vertex_shader.name.data(), disassemble(*programs->vertex).c_str(),
+                  fragment_shader.name.data(), disassemble(*programs->fragment).c_str());
+    }
+  }
+  for (auto _ : bench) {
+    const Result<GraphicsPrograms> programs = build_graphics(vertex, &fragment, setting.state, setting.layout());
+    if (!programs.ok()) bench.SkipWithError(programs.error().message.c_str());
+  }
+}
+
+const CorpusShader& find(std::string_view name) {
+  for (const CorpusShader& shader : kCorpus) {
+    if (shader.name == name) return shader;
+  }
+  std::abort();
+}
+
+}  // namespace
+}  // namespace lapilli
+
+int main(int argc, char** argv) {
+  using namespace lapilli;
+  for (const CorpusShader& shader : kCorpus) {
+    benchmark::RegisterBenchmark(("parse/" + std::string(shader.name)).c_str(),
+                                 [&](benchmark::State& state) { parse(state, shader); });
+    if (!shader.is(".frag")) continue;
+    const std::string base(shader.name.substr(0, shader.name.size() - 5));
+    const CorpusShader* vertex = &find("full_screen.vert");
+    for (const CorpusShader& other : kCorpus) {
+      if (other.name == base + ".vert") vertex = &other;
+    }
+    benchmark::RegisterBenchmark(("build/" + base).c_str(),
+                                 [&shader, vertex](benchmark::State& state) { build(state, *vertex, shader); });
+  }
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
