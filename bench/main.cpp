@@ -1,12 +1,12 @@
 // lapilli_bench: how fast each driver draws each scene, beside the others and beside what the machine could do.
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 
 #include "child.h"
-#include "measure.h"
+#include "report.h"
 
 namespace {
 
@@ -57,65 +57,14 @@ std::vector<const SceneEntry*> scenes_of(const Arguments& arguments) {
   return chosen;
 }
 
-// The fastest of the others, in ms; 0 if there is none.
-double best_peer(const Series& series) {
-  double best = 0;
-  for (size_t i = 1; i < series.results.size(); ++i) {
-    const Result& result = series.results[i];
-    if (result.absent.empty() && (best == 0 || result.frame < best)) best = result.frame;
-  }
-  return best;
-}
-
-// The least CPU time of the others, in ms a frame; 0 if there is none.
-double least_cpu(const Series& series) {
-  double least = 0;
-  for (size_t i = 1; i < series.results.size(); ++i) {
-    const Result& result = series.results[i];
-    if (result.absent.empty() && (least == 0 || result.cpu < least)) least = result.cpu;
-  }
-  return least;
-}
-
-void print_heading(const std::vector<run::Driver>& drivers) {
-  std::printf("%-13s %-9s", "frames in ms", "");
-  for (const run::Driver& driver : drivers) std::printf(" %11s", driver.label.c_str());
-  std::printf(" %7s | CPU", "ratio");
-  for (const run::Driver& driver : drivers) std::printf(" %11s", driver.label.c_str());
-  std::printf(" %7s | others\n", "ratio");
-}
-
-void print_line(const Series& series) {
-  const std::string size =
-      std::to_string(series.options.extent.width) + "x" + std::to_string(series.options.extent.height);
-  std::printf("%-13s %-9s", series.scene.c_str(), size.c_str());
-  const Result& ours = series.results.front();
-  const auto column = [&](double Result::*value, double peer) {
-    for (const Result& result : series.results) {
-      std::printf(" %11s", result.absent.empty() ? run::number(result.*value, 3).c_str() : "-");
-    }
-    const bool both = ours.absent.empty() && peer > 0;
-    std::printf(" %7s", both ? run::number(peer / (ours.*value), 2).c_str() : "-");
-  };
-  column(&Result::frame, best_peer(series));
-  std::printf(" |    ");
-  column(&Result::cpu, least_cpu(series));
-  double others = 0;
-  for (const Result& result : series.results) others = std::max(others, result.others);
-  std::printf(" | %3.0f %%\n", 100 * others);
-  for (const Result& result : series.results) {
-    if (!result.absent.empty()) std::printf("    %s: %s\n", result.driver.c_str(), result.absent.c_str());
-  }
-  std::fflush(stdout);
-}
-
 int bench(const Arguments& arguments) {
-  const std::vector<run::Driver> drivers = run::drivers_of(arguments.manifests, "lapilli_bench");
-  if (drivers.empty()) {
+  Run run;
+  run.drivers = run::drivers_of(arguments.manifests, "lapilli_bench");
+  if (run.drivers.empty()) {
     std::fprintf(stderr, "lapilli_bench: no driver; name manifests with --icd or VK_DRIVER_FILES\n");
     return 1;
   }
-  Plan plan;
+  Plan& plan = run.plan;
   plan.program = fs::read_symlink("/proc/self/exe");
   plan.pictures = arguments.output + "/bench";
   fs::create_directories(plan.pictures);
@@ -124,14 +73,40 @@ int bench(const Arguments& arguments) {
     plan.rounds = 3;
     plan.turn_ms = 100;
   }
-  print_heading(drivers);
+  const bool everything = arguments.scenes.empty();
+  Machine machine;
+  std::printf("%s", heading(run.drivers).c_str());
   for (const VkExtent2D& size : sizes_of(arguments)) {
+    const bool main_size = size.width == kMainSize.width && size.height == kMainSize.height;
+    Plan here = plan;
+    if (!main_size) here.starts = 1;
     for (const SceneEntry* entry : scenes_of(arguments)) {
-      const Series series = measure(*entry, {size, arguments.count}, drivers, plan);
-      print_line(series);
+      machine.measure();
+      Series series = measure(*entry, {size, arguments.count}, contestants_of(run.drivers), here);
+      series.limit = machine.limit_of(create_scene(*entry, series.options)->work());
+      std::printf("%s", line(series).c_str());
+      std::fflush(stdout);
+      run.series.push_back(std::move(series));
     }
   }
-  return 0;
+  if (everything) {
+    std::fprintf(stderr, "lapilli_bench: instance and device; threads\n");
+    run.starts = measure_starts(run.drivers, plan, 9);
+    run.two_threads = measure_two_threads(scenes_of(arguments), run.drivers.front(), plan);
+  }
+  if (everything && !arguments.quick) {
+    std::fprintf(stderr, "lapilli_bench: growth\n");
+    run.growth = measure_growth(run.drivers, plan);
+  }
+  run.rates = machine.rates();
+  run.threads = machine.threads();
+  if (everything) std::printf("\n%s", table(goals_of(run)).c_str());
+
+  const std::string data = arguments.output + "/bench.json";
+  std::ofstream(data) << page(run).dump(1) << '\n';
+  if (run::write_page(data, arguments.output + "/bench.html")) return 0;
+  std::fprintf(stderr, "lapilli_bench: the page could not be made; %s is there\n", data.c_str());
+  return 1;
 }
 
 }  // namespace

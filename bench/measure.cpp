@@ -19,6 +19,19 @@ struct Taken {
   std::vector<double> frames, records, cpu, others;  // one for each turn
 };
 
+run::Launch launch_of(const Contestant& contestant, const ChildOptions& options, const Plan& plan) {
+  run::Launch launch = {plan.program, arguments_of(options), contestant.manifest, {}};
+  if (contestant.threads == 0) return launch;
+  // Lapilli is told; the peers are given fewer CPUs, so that what they run beside their workers is limited as well.
+  if (contestant.label.starts_with("Lapilli")) {
+    launch.environment = {{"LAPILLI_THREADS", std::to_string(contestant.threads)}};
+  } else {
+    launch.environment = {{"LP_NUM_THREADS", std::to_string(contestant.threads)}};
+    launch.cpus = contestant.threads;
+  }
+  return launch;
+}
+
 void start(Result& result, Taken& taken, const run::Launch& launch) {
   taken.process.reset();
   taken.process = std::make_unique<run::Process>(launch);
@@ -83,25 +96,41 @@ void finish(Result& result, Taken& taken, const std::string& picture) {
 
 }  // namespace
 
-Series measure(const SceneEntry& entry, const SceneOptions& options, const std::vector<run::Driver>& drivers,
-               const Plan& plan, const Limits& limits) {
-  Series series = {std::string(entry.name), options, {}, std::vector<Result>(drivers.size())};
+std::vector<Contestant> contestants_of(const std::vector<run::Driver>& drivers, int threads) {
+  std::vector<Contestant> contestants;
+  for (const run::Driver& driver : drivers) contestants.push_back({driver.label, driver.manifest, threads});
+  return contestants;
+}
+
+double Series::best_peer(double Result::*value) const {
+  double best = 0;
+  for (size_t i = 1; i < results.size(); ++i) {
+    if (results[i].absent.empty() && (best == 0 || results[i].*value < best)) best = results[i].*value;
+  }
+  return best;
+}
+
+double Series::ratio(double Result::*value) const {
+  const double ours = results.front().*value;
+  return results.front().absent.empty() && ours > 0 ? best_peer(value) / ours : 0;
+}
+
+std::string Series::size() const {
+  return std::to_string(options.extent.width) + "x" + std::to_string(options.extent.height);
+}
+
+Series measure(const SceneEntry& entry, const SceneOptions& options, const std::vector<Contestant>& contestants,
+               const Plan& plan) {
+  Series series = {std::string(entry.name), options, {}, std::vector<Result>(contestants.size())};
   if (series.options.count == 0) series.options.count = entry.count;
-  series.work = create_scene(entry, series.options)->work();
-  std::vector<Taken> taken(drivers.size());
+  std::vector<Taken> taken(contestants.size());
   std::vector<run::Launch> launches;
-  for (size_t i = 0; i < drivers.size(); ++i) {
-    series.results[i].driver = drivers[i].label;
-    run::Launch launch = {
-        plan.program, arguments_of({series.scene, series.options}), drivers[i].manifest, {}, limits.threads};
-    if (limits.threads > 0) {
-      launch.environment = {{"LAPILLI_THREADS", std::to_string(limits.threads)},
-                            {"LP_NUM_THREADS", std::to_string(limits.threads)}};
-    }
-    launches.push_back(launch);
+  for (size_t i = 0; i < contestants.size(); ++i) {
+    series.results[i].driver = contestants[i].label;
+    launches.push_back(launch_of(contestants[i], {series.scene, series.options}, plan));
   }
   const auto each = [&](auto&& act) {
-    for (size_t i = 0; i < drivers.size(); ++i) {
+    for (size_t i = 0; i < contestants.size(); ++i) {
       if (series.results[i].absent.empty()) act(series.results[i], taken[i], i);
     }
   };
@@ -114,11 +143,14 @@ Series measure(const SceneEntry& entry, const SceneOptions& options, const std::
     each([&](Result& result, Taken& t, size_t) { take_turn(result, t, plan.turn_ms, plan.frames_per_turn, true); });
   }
   each([&](Result& result, Taken& t, size_t) {
-    const std::string size = std::to_string(options.extent.width) + "x" + std::to_string(options.extent.height);
-    const std::string file = plan.pictures + "/" + series.scene + "." + size + "." + result.driver + ".png";
+    const std::string file = plan.pictures + "/" + picture_name(series, result);
     finish(result, t, plan.pictures.empty() ? "" : file);
   });
   return series;
+}
+
+std::string picture_name(const Series& series, const Result& result) {
+  return series.scene + "." + series.size() + "." + result.driver + ".png";
 }
 
 }  // namespace lapilli::bench

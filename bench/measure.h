@@ -1,9 +1,10 @@
-// Lets the drivers take turns on a scene and takes the medians.
+// Lets drivers take turns on a scene and takes the medians.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "machine.h"
 #include "run/common.h"
 #include "scenes/scene.h"
 
@@ -17,6 +18,14 @@ struct Plan {
   int frames_per_turn = 200;  // at most
   std::string pictures;       // directory for PNGs of the last frames; empty: none
 };
+
+// A driver and how many threads it may use.
+struct Contestant {
+  std::string label;
+  std::string manifest;
+  int threads = 0;  // 0: as many as there are CPUs
+};
+std::vector<Contestant> contestants_of(const std::vector<run::Driver>& drivers, int threads = 0);
 
 // A scene at a size on a driver; all times in ms, medians.
 struct Result {
@@ -39,16 +48,20 @@ constexpr double kOthers = 0.1;
 struct Series {
   std::string scene;
   SceneOptions options;
-  Work work;
-  std::vector<Result> results;  // in the order of the drivers
+  Machine::Limit limit;
+  std::vector<Result> results;  // in the order of the contestants
+
+  // The best of the others, 0 if there is none.
+  double best_peer(double Result::*value) const;
+  // best_peer() over the first one's; 0 if either has nothing.
+  double ratio(double Result::*value = &Result::frame) const;
+  std::string size() const;  // "1280x720"
 };
 
-// How a driver's process is started beside its manifest.
-struct Limits {
-  int threads = 0;  // 0: as many as there are CPUs
-};
+// File name of a picture in Plan::pictures.
+std::string picture_name(const Series& series, const Result& result);
 
-Series measure(const SceneEntry& entry, const SceneOptions& options, const std::vector<run::Driver>& drivers,
-               const Plan& plan, const Limits& limits = {});
+Series measure(const SceneEntry& entry, const SceneOptions& options, const std::vector<Contestant>& contestants,
+               const Plan& plan);
 
 }  // namespace lapilli::bench

@@ -107,12 +107,13 @@ Kernel gravity(const SceneOptions& options, std::span<const uint32_t> shader) {
 
 // Two numbers read and one written. The factor is small, so that thousands of frames stay in range.
 std::unique_ptr<Scene> saxpy_scene(const SceneOptions& options) {
-  return std::make_unique<Compute>(options,
-                                   Kernel{shaders::kSaxpyComp,
-                                          waves(options.count, 0.01f),
-                                          waves(options.count, 0.0007f),
-                                          1e-6f,
-                                          {.memory_bytes = 12.0 * options.count, .operations = 1.0 * options.count}});
+  return std::make_unique<Compute>(options, Kernel{shaders::kSaxpyComp,
+                                                   waves(options.count, 0.01f),
+                                                   waves(options.count, 0.0007f),
+                                                   1e-6f,
+                                                   {.written_bytes = 4.0 * options.count,
+                                                    .read_bytes = 8.0 * options.count,
+                                                    .operations = 1.0 * options.count}});
 }
 std::unique_ptr<Scene> nbody_scene(const SceneOptions& options) {
   return std::make_unique<Compute>(options, gravity(options, shaders::kNbodyComp));

@@ -103,7 +103,7 @@ class Sprites : public Scene {
   // 100 operations set up a draw and its triangle; the triangles cover 0.4 of the screen.
   Work work() const override {
     const double pixels = 1.0 * extent_.width * extent_.height;
-    return {.memory_bytes = 4 * pixels, .operations = 100.0 * count_ + (own_pipelines_ ? 60 : 6) * 0.4 * pixels};
+    return {.written_bytes = 4 * pixels, .operations = 100.0 * count_ + (own_pipelines_ ? 60 : 6) * 0.4 * pixels};
   }
 
  private:
@@ -171,7 +171,7 @@ class Descriptors : public Scene {
   // 100 operations set up a draw and its triangles; the quads cover 0.81 of the screen, bilinear.
   Work work() const override {
     const double pixels = 1.0 * extent_.width * extent_.height;
-    return {.memory_bytes = 4 * pixels, .operations = 100.0 * count_ + 36 * 0.81 * pixels, .loads = 4 * 0.81 * pixels};
+    return {.written_bytes = 4 * pixels, .operations = 100.0 * count_ + 36 * 0.81 * pixels, .loads = 2 * 0.81 * pixels};
   }
 
  private:

@@ -33,7 +33,7 @@ class Clear : public Scene {
     vkCmdEndRenderPass(commands);
   }
   samples::Frame read_back(const samples::Context& context) const override { return target_.read_back(context); }
-  Work work() const override { return {.memory_bytes = kColorBytes * pixels_of(extent_)}; }
+  Work work() const override { return {.written_bytes = kColorBytes * pixels_of(extent_)}; }
 
  private:
   VkExtent2D extent_;
@@ -84,8 +84,8 @@ class Layers : public Scene {
   // operations for the disc.
   Work work() const override {
     const double pixels = pixels_of(extent_);
-    if (order_ != Order::blended) return {.memory_bytes = kColorBytes * pixels, .operations = 45 * pixels};
-    return {.memory_bytes = kColorBytes * pixels,
+    if (order_ != Order::blended) return {.written_bytes = kColorBytes * pixels, .operations = 45 * pixels};
+    return {.written_bytes = kColorBytes * pixels,
             .cached_bytes = 2 * kColorBytes * pixels * count_,
             .operations = 10 * pixels * count_};
   }
@@ -154,7 +154,7 @@ class FullScreen : public Scene {
   samples::Frame read_back(const samples::Context& context) const override { return target_.read_back(context); }
   Work work() const override {
     const double pixels = pixels_of(extent_);
-    return {.memory_bytes = kColorBytes * pixels,
+    return {.written_bytes = kColorBytes * pixels,
             .operations = picture_.operations * pixels,
             .loads = picture_.loads * pixels};
   }
@@ -183,13 +183,13 @@ std::unique_ptr<Scene> blended_scene(const SceneOptions& options) {
   return std::make_unique<Layers>(options, Order::blended);
 }
 
-// Four texels; three linear steps of four components, two operations each, and eight for the weights.
+// Two pairs of texels; three linear steps of four components, two operations each, and eight for the weights.
 std::unique_ptr<Scene> bilinear_scene(const SceneOptions& options) {
-  return std::make_unique<FullScreen>(options, Picture{shaders::kBilinearFrag, Picture::Texture::bilinear, 32, 4});
+  return std::make_unique<FullScreen>(options, Picture{shaders::kBilinearFrag, Picture::Texture::bilinear, 32, 2});
 }
 // Twice as much, and the step between the levels.
 std::unique_ptr<Scene> trilinear_scene(const SceneOptions& options) {
-  return std::make_unique<FullScreen>(options, Picture{shaders::kTrilinearFrag, Picture::Texture::trilinear, 80, 8});
+  return std::make_unique<FullScreen>(options, Picture{shaders::kTrilinearFrag, Picture::Texture::trilinear, 80, 4});
 }
 std::unique_ptr<Scene> noise_scene(const SceneOptions& options) {
   return std::make_unique<FullScreen>(options, Picture{shaders::kCloudsFrag, Picture::Texture::none, 200, 0});

@@ -126,7 +126,8 @@ class MeshScene : public Scene {
   samples::Frame read_back(const samples::Context& context) const override { return target_.read_back(context); }
   Work work() const override {
     Work work = mesh_.work;
-    work.memory_bytes += 4.0 * extent_.width * extent_.height + input_bytes(mesh_);
+    work.written_bytes += 4.0 * extent_.width * extent_.height;
+    work.read_bytes += input_bytes(mesh_);
     return work;
   }
 

@@ -18,10 +18,11 @@ struct SceneOptions {
 // What no driver gets around for one frame; the limit of a frame is the longest of the times these take at the rates
 // that machine.h measures.
 struct Work {
-  double memory_bytes = 0;  // written to attachments and buffers, or read from what is too large for a cache
-  double cached_bytes = 0;  // read and written in a tile that stays in the cache
-  double operations = 0;    // arithmetic on float32, an fma counting as one
-  double loads = 0;         // of 4 bytes from places that are computed (texels)
+  double written_bytes = 0;  // to attachments and buffers
+  double read_bytes = 0;     // vertices, indices, buffers; once each
+  double cached_bytes = 0;   // read and written in a tile that stays in the cache
+  double operations = 0;     // arithmetic on float32, an fma counting as one
+  double loads = 0;          // from places that are computed; two texels side by side are one
 };
 
 // The functions that take a context are called once each, in this order; record() as often as frames are wanted.

@@ -153,7 +153,8 @@ class ShadowMap : public Scene {
     const double map_bytes = 4.0 * kMapExtent.width * kMapExtent.height;
     const double vertices = static_cast<double>(hall_.vertices.size());
     const double triangles = static_cast<double>(hall_.indices.size()) / 3;
-    return {.memory_bytes = 4 * pixels + map_bytes + 2 * vertices * sizeof(Vertex) + 2 * 12 * triangles,
+    return {.written_bytes = 4 * pixels + map_bytes,
+            .read_bytes = 2 * vertices * sizeof(Vertex) + 2 * 12 * triangles,
             .operations = 2 * (24 * vertices + 20 * triangles) + 60 * pixels,
             .loads = 9 * pixels};
   }

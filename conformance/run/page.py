@@ -4,8 +4,10 @@
 The JSON: {"title": …, "notes": [text…], "sections": [{"heading": …, "text": …, "blocks": [block…]}…]}. A block is one of
   {"type": "table", "columns": [heading…], "rows": [[cell…]…]}         columns of numbers are set to the right
   {"type": "images", "images": [{"file": …, "caption": …}…]}            PNGs beside the JSON; they are put into the page
-  {"type": "scatter", "title", "x_label", "x_log", "y_label", "y_log", "points": [{"series", "label", "x", "y"}…]}
-  {"type": "bars", "title", "y_label", "y_log", "groups": [name…], "series": {name: [value or null…]…}}
+  {"type": "scatter", "title", "x_label", "x_log", "y_label", "y_log", "points": [{"series", "label", "x", "y"}…],
+   "lines"}                                                             true: the points of a series are connected
+  {"type": "bars", "title", "y_label", "y_log", "groups": [name…], "series": {name: [value or null…]…}, "order": [name…],
+   "wide"}                                                              true: as wide as the page
 """
 
 import base64
@@ -77,7 +79,7 @@ def svg(figure):
 
 
 def axes(block):
-    figure, axis = plt.subplots(figsize=(6.2, 4.2))
+    figure, axis = plt.subplots(figsize=(13, 4.2) if block.get("wide") else (6.2, 4.2))
     axis.set_title(block["title"], fontsize=11)
     axis.set_ylabel(block["y_label"])
     if block.get("y_log"):
@@ -97,6 +99,10 @@ def scatter(block):
     for p in block["points"]:
         axis.plot(p["x"], p["y"], linestyle="", marker=MARKERS[labels.index(p["label"]) % len(MARKERS)], markersize=8,
                   color=COLORS[series.index(p["series"]) % len(COLORS)], markeredgecolor="white")
+    if block.get("lines"):
+        for i, name in enumerate(series):
+            own = sorted((p["x"], p["y"]) for p in block["points"] if p["series"] == name)
+            axis.plot([x for x, _ in own], [y for _, y in own], color=COLORS[i % len(COLORS)], linewidth=1)
     handles = [matplotlib.lines.Line2D([], [], marker="s", linestyle="", color=COLORS[i % len(COLORS)], label=s)
                for i, s in enumerate(series)]
     handles += [matplotlib.lines.Line2D([], [], marker=MARKERS[i % len(MARKERS)], linestyle="", color="#868e96", label=s)
@@ -110,7 +116,8 @@ def scatter(block):
 def bars(block):
     figure, axis = axes(block)
     count = len(block["series"])
-    for i, (name, values) in enumerate(block["series"].items()):
+    for i, name in enumerate(block.get("order", block["series"])):
+        values = block["series"][name]
         places = [g + (i - (count - 1) / 2) * 0.8 / count for g in range(len(values))]
         axis.bar(places, [v or 0 for v in values], 0.8 / count, label=name, color=COLORS[i % len(COLORS)])
     axis.set_xticks(range(len(block["groups"])), block["groups"], rotation=20, ha="right")
