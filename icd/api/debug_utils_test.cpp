@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "api/command_table.h"
@@ -73,6 +74,32 @@ TEST(DebugUtils, AMessengerHearsWhatItAskedForUntilItIsDestroyed) {
   CALL(vkDestroyDebugUtilsMessengerEXT)(instance, messenger, nullptr);
   log_error("not heard");
   EXPECT_EQ(messages.size(), 2u);
+  CALL(vkDestroyInstance)(instance, nullptr);
+}
+
+// Another thread does with instances and messages what it likes while a callback runs.
+TEST(DebugUtils, ACallbackMayWaitForAnotherThreadThatCreatesAnInstance) {
+  VkInstance instance = nullptr;
+  ASSERT_EQ(create_instance(nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME, &instance), VK_SUCCESS);
+  Messages messages;
+  VkDebugUtilsMessengerCreateInfoEXT info = messenger_info(messages);
+  info.pfnUserCallback = [](VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                            const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) -> VkBool32 {
+    static_cast<Messages*>(user)->emplace_back(data->pMessage);
+    std::thread([] {
+      Messages inner;
+      const VkDebugUtilsMessengerCreateInfoEXT chain = messenger_info(inner);
+      VkInstance other = nullptr;
+      EXPECT_EQ(create_instance(&chain, VK_EXT_DEBUG_UTILS_EXTENSION_NAME, &other), VK_SUCCESS);
+      CALL(vkDestroyInstance)(other, nullptr);
+    }).join();
+    return VK_FALSE;
+  };
+  VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
+  ASSERT_EQ(CALL(vkCreateDebugUtilsMessengerEXT)(instance, &info, nullptr, &messenger), VK_SUCCESS);
+  log_error("heard");
+  EXPECT_EQ(messages, Messages{"heard"});
+  CALL(vkDestroyDebugUtilsMessengerEXT)(instance, messenger, nullptr);
   CALL(vkDestroyInstance)(instance, nullptr);
 }
 

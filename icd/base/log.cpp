@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <condition_variable>
 #include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
@@ -15,8 +16,8 @@ constexpr std::array<const char*, 4> kNames = {"error", "warning", "info", "debu
 constexpr int kNobody = -1;
 
 struct Listeners {
-  // Recursive, for a sink that logs.
-  std::recursive_mutex mutex;
+  std::mutex mutex;
+  std::condition_variable quiet;  // a sink that leaves is not called any more
   LogSink* sinks = nullptr;
   int stderr_level = kNobody;
   // The least grave level that anyone wants: read without the lock.
@@ -43,12 +44,18 @@ void log_list(LogLevel level, const char* format, std::va_list arguments) {
   char message[kMaxLogMessage];
   if (std::vsnprintf(message, sizeof message, format, arguments) < 0) return;
   Listeners& all = listeners();
-  const std::lock_guard lock(all.mutex);
+  std::unique_lock lock(all.mutex);
   if (static_cast<int>(level) <= all.stderr_level) {
     std::fprintf(stderr, "lapilli: %s: %s\n", log_level_name(level), message);
   }
-  for (const LogSink* sink = all.sinks; sink != nullptr; sink = sink->next) {
-    if (level <= sink->level) sink->write(sink->user, level, message);
+  for (LogSink* sink = all.sinks; sink != nullptr; sink = sink->next) {
+    if (level > sink->level || sink->leaving) continue;
+    // While it is called it stays in the list: the loop finds its way on.
+    ++sink->calls;
+    lock.unlock();
+    sink->write(sink->user, level, message);
+    lock.lock();
+    if (--sink->calls == 0 && sink->leaving) all.quiet.notify_all();
   }
 }
 
@@ -107,9 +114,18 @@ void add_log_sink(LogSink& sink) {
   all.update_widest();
 }
 
-void remove_log_sink(LogSink& sink) {
+void set_log_sink_level(LogSink& sink, LogLevel level) {
   Listeners& all = listeners();
   const std::lock_guard lock(all.mutex);
+  sink.level = level;
+  all.update_widest();
+}
+
+void remove_log_sink(LogSink& sink) {
+  Listeners& all = listeners();
+  std::unique_lock lock(all.mutex);
+  sink.leaving = true;
+  all.quiet.wait(lock, [&] { return sink.calls == 0; });
   for (LogSink** link = &all.sinks; *link != nullptr; link = &(*link)->next) {
     if (*link == &sink) {
       *link = sink.next;
@@ -117,6 +133,7 @@ void remove_log_sink(LogSink& sink) {
     }
   }
   sink.next = nullptr;
+  sink.leaving = false;
   all.update_widest();
 }
 

@@ -27,15 +27,20 @@ void set_stderr_log_level(std::optional<LogLevel> level);
 // As the environment variable LAPILLI_LOG says; an unknown value means warning, and says so.
 void set_stderr_log_level_from_environment();
 
-// A listener. The caller keeps it alive from add to remove; after remove it is not called any more.
-// write may log itself, but may not add or remove sinks.
+// A listener. The caller keeps it alive from add to remove.
+// No lock is held while write runs: several threads may be in it, and it may log, add sinks and remove other ones.
 struct LogSink {
-  LogLevel level = LogLevel::kDebug;  // this and graver ones
+  LogLevel level = LogLevel::kDebug;  // this and graver ones; once it is added only set_log_sink_level changes it
   void (*write)(void* user, LogLevel level, const char* message) = nullptr;
   void* user = nullptr;
-  LogSink* next = nullptr;  // the log's own
+  // The log's own.
+  LogSink* next = nullptr;
+  int calls = 0;  // threads in write
+  bool leaving = false;
 };
 void add_log_sink(LogSink& sink);
+void set_log_sink_level(LogSink& sink, LogLevel level);
+// Waits until no thread is in its write any more. Not from that write itself.
 void remove_log_sink(LogSink& sink);
 
 }  // namespace lapilli

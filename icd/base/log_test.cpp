@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <cstdlib>
+#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
@@ -13,13 +16,16 @@ namespace {
 
 struct Recorder {
   LogSink sink;
+  std::mutex mutex;
   std::vector<std::string> messages;
 
   explicit Recorder(LogLevel level) {
     sink.level = level;
     sink.user = this;
     sink.write = [](void* user, LogLevel message_level, const char* message) {
-      static_cast<Recorder*>(user)->messages.push_back(std::string(log_level_name(message_level)) + ":" + message);
+      auto& recorder = *static_cast<Recorder*>(user);
+      const std::lock_guard lock(recorder.mutex);
+      recorder.messages.push_back(std::string(log_level_name(message_level)) + ":" + message);
     };
     add_log_sink(sink);
   }
@@ -80,6 +86,50 @@ TEST(Log, ThreadsMayLogTogether) {
   }
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(recorder.messages.size(), 2000u);
+}
+
+// A sink that is being called holds nobody up, and removal waits for it.
+TEST(Log, OthersLogAndListenWhileASinkIsBusy) {
+  struct Busy {
+    std::atomic<bool> inside{false}, go_on{false}, left{false};
+  } busy;
+  LogSink sink;
+  sink.level = LogLevel::kError;
+  sink.user = &busy;
+  sink.write = [](void* user, LogLevel, const char*) {
+    auto& state = *static_cast<Busy*>(user);
+    state.inside = true;
+    while (!state.go_on) std::this_thread::yield();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    state.left = true;
+  };
+  add_log_sink(sink);
+  std::thread logger([] { log_error("slow"); });
+  while (!busy.inside) std::this_thread::yield();
+  {
+    Recorder recorder(LogLevel::kWarning);
+    log_warning("meanwhile");
+    EXPECT_EQ(recorder.messages, std::vector<std::string>{"warning:meanwhile"});
+  }
+  busy.go_on = true;
+  remove_log_sink(sink);
+  EXPECT_TRUE(busy.left);
+  logger.join();
+}
+
+TEST(Log, ASinkMayLogAndAddSinks) {
+  static Recorder* inner;
+  LogSink sink;
+  sink.level = LogLevel::kError;
+  sink.write = [](void*, LogLevel, const char*) {
+    inner = new Recorder(LogLevel::kInfo);
+    log_info("from the sink");
+  };
+  add_log_sink(sink);
+  log_error("outer");
+  remove_log_sink(sink);
+  EXPECT_EQ(inner->messages, std::vector<std::string>{"info:from the sink"});
+  delete inner;
 }
 
 }  // namespace

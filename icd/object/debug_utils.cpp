@@ -49,17 +49,20 @@ MessengerList::~MessengerList() {
 
 // Asks the log for what the messengers want and no more: a message that nobody hears is not even formatted.
 void MessengerList::listen() {
-  if (listening_) remove_log_sink(sink_);
   VkDebugUtilsMessageSeverityFlagsEXT wanted = 0;
   {
     const std::scoped_lock lock(mutex_);
     for (const Messenger* messenger : messengers_) wanted |= messenger->info.messageSeverity;
   }
-  listening_ = wanted != 0;
-  for (LogLevel level : {LogLevel::kError, LogLevel::kWarning, LogLevel::kInfo, LogLevel::kDebug}) {
-    if ((wanted & severity_of(level)) != 0) sink_.level = level;
+  if (wanted == 0) return;
+  LogLevel level = LogLevel::kError;
+  for (LogLevel more : {LogLevel::kWarning, LogLevel::kInfo, LogLevel::kDebug}) {
+    if ((wanted & severity_of(more)) != 0) level = more;
   }
-  if (listening_) add_log_sink(sink_);
+  if (listening_) return set_log_sink_level(sink_, level);
+  sink_.level = level;
+  listening_ = true;
+  add_log_sink(sink_);
 }
 
 void MessengerList::add(Messenger& messenger) {
@@ -70,11 +73,14 @@ void MessengerList::add(Messenger& messenger) {
   listen();
 }
 
+// Its callback is not running any more when this returns.
 void MessengerList::remove(Messenger& messenger) {
   {
     const std::scoped_lock lock(mutex_);
     std::erase(messengers_, &messenger);
   }
+  if (listening_) remove_log_sink(sink_);
+  listening_ = false;
   listen();
 }
 
