@@ -4,37 +4,29 @@
 #include <signal.h>
 
 #include <cassert>
+#include <new>
 
 #include "base/fp_environment.h"
+#include "base/spin.h"
 
 namespace lapilli {
-namespace {
 
-// About ten microseconds; longer waits sleep, for the cores belong to the application.
-constexpr int kSpins = 256;
+ThreadPool::ThreadPool(unsigned workers, std::chrono::nanoseconds spin) : size_(workers), spin_(spin) {}
 
-void pause_briefly() {
-#if defined(__x86_64__)
-  __builtin_ia32_pause();
-#elif defined(__aarch64__)
-  asm volatile("yield");
-#endif
-}
-
-}  // namespace
-
-ThreadPool::ThreadPool(unsigned workers) : threads_(workers > 1 ? new Thread[workers - 1] : nullptr) {
+void ThreadPool::start_threads() {
+  threads_.reset(new (std::nothrow) Thread[size_ - 1]);
+  if (threads_ == nullptr) return;
   // Threads inherit the mask: no signal of the application can arrive on one before it has blocked it.
   sigset_t all;
   sigset_t before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
-  for (unsigned worker = 1; worker < workers; ++worker) {
+  for (unsigned worker = 1; worker < size_; ++worker) {
     Thread& thread = threads_[worker - 1];
     thread.pool = this;
     thread.worker = worker;
     if (pthread_create(&thread.handle, nullptr, &thread_main, &thread) != 0) break;
-    size_ = worker + 1;
+    running_ = worker + 1;
   }
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
@@ -42,7 +34,7 @@ ThreadPool::ThreadPool(unsigned workers) : threads_(workers > 1 ? new Thread[wor
 ThreadPool::~ThreadPool() {
   state_.fetch_or(kQuit, std::memory_order_release);
   state_.notify_all();
-  for (unsigned worker = 1; worker < size_; ++worker) {
+  for (unsigned worker = 1; worker < running_; ++worker) {
     pthread_join(threads_[worker - 1].handle, nullptr);
   }
 }
@@ -59,11 +51,13 @@ void* ThreadPool::thread_main(void* argument) {
 
 void ThreadPool::serve(unsigned worker) {
   for (;;) {
-    std::uint32_t state = state_.load(std::memory_order_relaxed);
-    for (int spin = 0; spin < kSpins && (state & (kOpen | kQuit)) == 0; ++spin) {
-      pause_briefly();
-      state = state_.load(std::memory_order_relaxed);
-    }
+    std::uint32_t state = 0;
+    spin_until(
+        [&] {
+          state = state_.load(std::memory_order_relaxed);
+          return (state & (kOpen | kQuit)) != 0;
+        },
+        spin_);
     if ((state & kQuit) != 0) return;
     if ((state & kOpen) == 0) {
       state_.wait(state, std::memory_order_relaxed);
@@ -109,7 +103,8 @@ void ThreadPool::run(std::size_t count, Call entry, void* body) {
   const FpEnvironment environment;
   [[maybe_unused]] const bool was_busy = busy_.exchange(true, std::memory_order_acquire);
   assert(!was_busy && "parallel_for within parallel_for, or from two threads");
-  if (size_ == 1 || count == 1) {
+  if (size_ > 1 && count > 1 && threads_ == nullptr) start_threads();
+  if (running_ == 1 || count == 1) {
     for (std::size_t index = 0; index < count; ++index) entry(body, index, 0);
     busy_.store(false, std::memory_order_release);
     return;
@@ -126,12 +121,11 @@ void ThreadPool::run(std::size_t count, Call entry, void* body) {
   work(0);
   leave_loop();
   // The last to leave, perhaps this thread, says so; nobody touches the pool's loop after that.
-  for (int spin = 0; finished_loop_.load(std::memory_order_acquire) != number; ++spin) {
-    if (spin < kSpins) {
-      pause_briefly();
-    } else {
-      const std::uint32_t finished = finished_loop_.load(std::memory_order_acquire);
-      if (finished != number) finished_loop_.wait(finished, std::memory_order_acquire);
+  const auto finished = [&] { return finished_loop_.load(std::memory_order_acquire) == number; };
+  if (!spin_until(finished, spin_)) {
+    std::uint32_t last;
+    while ((last = finished_loop_.load(std::memory_order_acquire)) != number) {
+      finished_loop_.wait(last, std::memory_order_acquire);
     }
   }
   busy_.store(false, std::memory_order_release);

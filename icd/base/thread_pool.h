@@ -4,6 +4,7 @@
 #include <pthread.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -18,13 +19,14 @@ namespace lapilli {
 // A worker that wakes up too late finds the loop closed and never sees it.
 class ThreadPool {
  public:
-  // The caller of parallel_for is one of `workers` (at least 1); the others are threads, made here, with all signals
-  // blocked. If the system refuses threads there are fewer: size() tells.
-  explicit ThreadPool(unsigned workers);
+  // The caller of parallel_for is one of `workers` (at least 1); the others are threads with all signals blocked. The
+  // first loop makes them, as many as the system gives. `spin`: how long threads wait awake before they sleep.
+  explicit ThreadPool(unsigned workers, std::chrono::nanoseconds spin = {});
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
+  // Workers that a loop may have.
   unsigned size() const { return size_; }
 
   // Calls body(index, worker) once for each index below count, in no fixed order, and returns when all calls have
@@ -44,11 +46,12 @@ class ThreadPool {
   }
 
   struct Thread {
-    ThreadPool* pool;
-    unsigned worker;
-    pthread_t handle;
+    ThreadPool* pool = nullptr;
+    unsigned worker = 0;
+    pthread_t handle = {};
   };
 
+  void start_threads();
   void run(std::size_t count, Call entry, void* body);
   void work(unsigned worker);
   bool join_open_loop();
@@ -71,7 +74,9 @@ class ThreadPool {
   std::uint32_t loop_number_ = 0;
 
   std::atomic<bool> busy_{false};
-  unsigned size_ = 1;
+  const unsigned size_;
+  const std::chrono::nanoseconds spin_;
+  unsigned running_ = 1;  // workers that are there, the caller among them
   std::unique_ptr<Thread[]> threads_;
 };
 

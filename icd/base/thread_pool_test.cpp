@@ -28,8 +28,7 @@ TEST(ThreadPool, RunsEveryIndexOnce) {
 }
 
 // Unsynchronized writes of the bodies are visible afterwards, and each worker's scratch has one user: tsan watches too.
-TEST(ThreadPool, ManyShortLoopsStayApart) {
-  ThreadPool pool(4);
+void run_many_short_loops(ThreadPool& pool) {
   std::array<long, 4> sums{};
   std::vector<int> data(16);
   long expected = 0;
@@ -42,6 +41,13 @@ TEST(ThreadPool, ManyShortLoopsStayApart) {
     expected += 15 * 16 / 2;
   }
   EXPECT_EQ(sums[0] + sums[1] + sums[2] + sums[3], expected);
+}
+
+TEST(ThreadPool, ManyShortLoopsStayApart) {
+  ThreadPool sleeping(4);
+  run_many_short_loops(sleeping);
+  ThreadPool spinning(4, std::chrono::microseconds(20));
+  run_many_short_loops(spinning);
 }
 
 // A body that blocks until all workers are inside proves that they run at the same time.
@@ -101,7 +107,7 @@ TEST(ThreadPool, BodiesRoundToNearestWhateverTheCallerDoes) {
 }
 
 TEST(ThreadPool, IdleWorkersSleep) {
-  ThreadPool pool(4);
+  ThreadPool pool(4, std::chrono::microseconds(50));
   pool.parallel_for(64, [](std::size_t, unsigned) {});
   timespec before{}, after{};
   std::this_thread::sleep_for(std::chrono::milliseconds(50));

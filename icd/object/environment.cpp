@@ -15,6 +15,8 @@ namespace lapilli {
 namespace {
 
 constexpr long kMaxThreads = 256;
+// An application that waits for its frame submits the next one soon after.
+constexpr std::chrono::microseconds kSpin{50};
 constexpr long kMaxTimeoutMs = 24L * 3600 * 1000;
 
 std::optional<long> positive_number(const char* variable, long max) {
@@ -57,7 +59,9 @@ Environment read_environment() {
   choose_simd_target();
   set_kept_removals_from_environment();
   Environment environment;
-  environment.threads = static_cast<unsigned>(positive_number("LAPILLI_THREADS", kMaxThreads).value_or(cpu_count()));
+  const unsigned cpus = cpu_count();
+  environment.threads = static_cast<unsigned>(positive_number("LAPILLI_THREADS", kMaxThreads).value_or(cpus));
+  if (cpus > 1) environment.spin = kSpin;
   if (const auto timeout = positive_number("LAPILLI_TIMEOUT_MS", kMaxTimeoutMs)) {
     environment.timeout = std::chrono::milliseconds(*timeout);
   }

@@ -51,7 +51,7 @@ VkResult check_queues(const VkDeviceCreateInfo& info) {
 Device::Device(const HostMemory& memory, PhysicalDevice& physical)
     : Handle(memory),
       DeviceContext(host, physical),
-      pool(physical.environment.threads),
+      pool(physical.environment.threads, physical.environment.spin),
       queue(make_object<Queue>(host, VK_SYSTEM_ALLOCATION_SCOPE_DEVICE, *this, pool)) {}
 
 VkResult create_device(PhysicalDevice& physical, const VkDeviceCreateInfo& info, const VkAllocationCallbacks* callbacks,

@@ -8,6 +8,7 @@
 
 #include "base/fp_environment.h"
 #include "base/log.h"
+#include "base/spin.h"
 #include "object/debug_utils.h"
 
 namespace lapilli {
@@ -31,69 +32,104 @@ std::thread start_thread_without_signals(Function function) {
 }
 
 template <class T, class H>
-void append(std::vector<T*>& list, const H* handles, uint32_t count) {
+void assign(std::vector<T*>& list, const H* handles, uint32_t count) {
+  list.clear();
   for (uint32_t i = 0; i < count; ++i) list.push_back(std::remove_const_t<T>::from(handles[i]));
 }
 
 }  // namespace
 
-Queue::Queue(const HostMemory& memory, DeviceContext& owner, ThreadPool& workers)
-    : Handle(memory), device_(owner), executor_(owner, workers) {
-  thread_ = start_thread_without_signals([this] { work(); });
+SubmissionList::~SubmissionList() {
+  while (Submission* submission = pop()) delete submission;
 }
 
+void SubmissionList::push(Submission* submission) {
+  submission->next = nullptr;
+  (last_ != nullptr ? last_->next : first_) = submission;
+  last_ = submission;
+}
+
+Submission* SubmissionList::pop() {
+  Submission* const submission = first_;
+  if (submission == nullptr) return nullptr;
+  first_ = submission->next;
+  if (first_ == nullptr) last_ = nullptr;
+  return submission;
+}
+
+void SubmissionList::append(SubmissionList& other) {
+  if (other.empty()) return;
+  (last_ != nullptr ? last_->next : first_) = other.first_;
+  last_ = other.last_;
+  other.first_ = other.last_ = nullptr;
+}
+
+Queue::Queue(const HostMemory& memory, DeviceContext& owner, ThreadPool& workers)
+    : Handle(memory), device_(owner), executor_(owner, workers) {}
+
 Queue::~Queue() {
+  if (!thread_.joinable()) return;
   {
-    const std::scoped_lock lock(mutex_);
+    const std::scoped_lock lock(device_.sync.mutex);
     quit_ = true;
+    work_to_do_ = true;
   }
   wake_.notify_all();
   thread_.join();
 }
 
-VkResult Queue::submit(std::span<const VkSubmitInfo> batches, Fence* fence) {
-  std::deque<Submission> submissions;
-  for (const VkSubmitInfo& batch : batches) {
-    Submission& submission = submissions.emplace_back();
-    append(submission.waits, batch.pWaitSemaphores, batch.waitSemaphoreCount);
-    append(submission.commands, batch.pCommandBuffers, batch.commandBufferCount);
-    append(submission.signals, batch.pSignalSemaphores, batch.signalSemaphoreCount);
+Submission& Queue::add_to(SubmissionList& list) {
+  Submission* submission = unused_.pop();
+  if (submission == nullptr) submission = new Submission;
+  list.push(submission);
+  submission->fence = nullptr;
+  submission->labels = labels_;
+  return *submission;
+}
+
+// fill(submission, batch) for each batch; a call without batches has an empty one, for the fence.
+template <class Batch, class Fill>
+VkResult Queue::push(std::span<const Batch> batches, Fence* fence, const Fill& fill) {
+  if (device_.lost) return VK_ERROR_DEVICE_LOST;
+  {
+    const std::scoped_lock lock(device_.sync.mutex);
+    if (!thread_.joinable()) thread_ = start_thread_without_signals([this] { work(); });
+    SubmissionList added;
+    Submission* last = nullptr;
+    uint64_t count = 0;
+    try {
+      do {
+        last = &add_to(added);
+        fill(*last, batches.empty() ? Batch{} : batches[count]);
+      } while (++count < batches.size());
+    } catch (...) {
+      unused_.append(added);
+      throw;
+    }
+    last->fence = fence;
+    submitted_.append(added);
+    pending_ += count;
+    work_to_do_.store(true, std::memory_order_relaxed);
   }
-  if (submissions.empty()) submissions.emplace_back();
-  submissions.back().fence = fence;
-  return push(std::move(submissions));
+  wake_.notify_one();
+  return VK_SUCCESS;
+}
+
+VkResult Queue::submit(std::span<const VkSubmitInfo> batches, Fence* fence) {
+  return push(batches, fence, [](Submission& submission, const VkSubmitInfo& batch) {
+    assign(submission.waits, batch.pWaitSemaphores, batch.waitSemaphoreCount);
+    assign(submission.commands, batch.pCommandBuffers, batch.commandBufferCount);
+    assign(submission.signals, batch.pSignalSemaphores, batch.signalSemaphoreCount);
+  });
 }
 
 // No resource can be sparse, so that only the semaphores and the fence are left.
 VkResult Queue::bind_sparse(std::span<const VkBindSparseInfo> batches, Fence* fence) {
-  std::deque<Submission> submissions;
-  for (const VkBindSparseInfo& batch : batches) {
-    Submission& submission = submissions.emplace_back();
-    append(submission.waits, batch.pWaitSemaphores, batch.waitSemaphoreCount);
-    append(submission.signals, batch.pSignalSemaphores, batch.signalSemaphoreCount);
-  }
-  if (submissions.empty()) submissions.emplace_back();
-  submissions.back().fence = fence;
-  return push(std::move(submissions));
-}
-
-VkResult Queue::push(std::deque<Submission> submissions) {
-  if (device_.lost) return VK_ERROR_DEVICE_LOST;
-  {
-    const std::scoped_lock lock(mutex_);
-    for (Submission& submission : submissions) submission.labels = labels_;
-    const size_t before = submissions_.size();
-    try {
-      for (Submission& submission : submissions) submissions_.push_back(std::move(submission));
-    } catch (...) {
-      submissions_.resize(before);
-      throw;
-    }
-    const std::scoped_lock sync(device_.sync.mutex);
-    pending_ += submissions.size();
-  }
-  wake_.notify_one();
-  return VK_SUCCESS;
+  return push(batches, fence, [](Submission& submission, const VkBindSparseInfo& batch) {
+    assign(submission.waits, batch.pWaitSemaphores, batch.waitSemaphoreCount);
+    submission.commands.clear();
+    assign(submission.signals, batch.pSignalSemaphores, batch.signalSemaphoreCount);
+  });
 }
 
 VkResult Queue::wait_idle() {
@@ -104,22 +140,32 @@ VkResult Queue::wait_idle() {
 
 void Queue::work() {
   const FpEnvironment environment;
-  for (;;) {
-    Submission submission;
-    {
-      std::unique_lock lock(mutex_);
-      wake_.wait(lock, [this] { return quit_ || !submissions_.empty(); });
-      if (submissions_.empty()) return;
-      submission = std::move(submissions_.front());
-      submissions_.pop_front();
-    }
-    wait_for(submission.waits);
-    execute(submission);
-    finish(submission);
+  Submission* submission = nullptr;
+  while ((submission = next(submission)) != nullptr) {
+    wait_for(submission->waits);
+    execute(*submission);
   }
 }
 
+// Reports the one that is done and waits for another; null: the queue is destroyed.
+Submission* Queue::next(Submission* finished) {
+  if (finished != nullptr) {
+    {
+      const std::scoped_lock lock(device_.sync.mutex);
+      finish(*finished);
+      work_to_do_.store(quit_ || !submitted_.empty(), std::memory_order_relaxed);
+    }
+    device_.sync.changed.notify_all();
+  }
+  const auto has_work = [this] { return work_to_do_.load(std::memory_order_relaxed); };
+  spin_until(has_work, device_.physical_device.environment.spin);
+  std::unique_lock lock(device_.sync.mutex);
+  wake_.wait(lock, has_work);
+  return submitted_.pop();
+}
+
 void Queue::wait_for(const std::vector<Semaphore*>& semaphores) {
+  if (semaphores.empty()) return;
   std::unique_lock lock(device_.sync.mutex);
   for (Semaphore* semaphore : semaphores) {
     device_.sync.changed.wait(lock, [&] { return device_.lost || semaphore->signaled; });
@@ -149,22 +195,21 @@ void Queue::execute(const Submission& submission) {
   device_.lost = true;
 }
 
-// Also on a lost device: nobody may wait for ever.
-void Queue::finish(const Submission& submission) {
-  const std::scoped_lock lock(device_.sync.mutex);
+// Also on a lost device: nobody may wait for ever. The caller holds the lock.
+void Queue::finish(Submission& submission) {
   for (Semaphore* semaphore : submission.signals) semaphore->signaled = true;
   if (submission.fence != nullptr) submission.fence->signaled = true;
   --pending_;
-  device_.sync.changed.notify_all();
+  unused_.push(&submission);
 }
 
 void Queue::begin_label(const char* name) {
-  const std::scoped_lock lock(mutex_);
+  const std::scoped_lock lock(device_.sync.mutex);
   labels_.emplace_back(name);
 }
 
 void Queue::end_label() {
-  const std::scoped_lock lock(mutex_);
+  const std::scoped_lock lock(device_.sync.mutex);
   if (!labels_.empty()) labels_.pop_back();
 }
 

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <condition_variable>
-#include <deque>
-#include <mutex>
 #include <string>
 #include <thread>
 
@@ -12,13 +10,32 @@
 
 namespace lapilli {
 
-// One batch of vkQueueSubmit.
+// One batch of vkQueueSubmit. The queue uses them again and again, so that their lists keep their memory.
 struct Submission {
   std::vector<Semaphore*> waits;
   std::vector<const CommandBuffer*> commands;
   std::vector<Semaphore*> signals;
   Fence* fence = nullptr;           // signalled after the last batch of a call
   std::vector<std::string> labels;  // of the queue, outermost first
+  Submission* next = nullptr;
+};
+
+// First in, first out. Owns what it holds.
+class SubmissionList {
+ public:
+  SubmissionList() = default;
+  ~SubmissionList();
+  SubmissionList(const SubmissionList&) = delete;
+  SubmissionList& operator=(const SubmissionList&) = delete;
+
+  bool empty() const { return first_ == nullptr; }
+  void push(Submission* submission);
+  Submission* pop();                   // null if it is empty
+  void append(SubmissionList& other);  // which is empty then
+
+ private:
+  Submission* first_ = nullptr;
+  Submission* last_ = nullptr;
 };
 
 struct Queue : Handle<Queue, VkQueue> {
@@ -34,21 +51,26 @@ struct Queue : Handle<Queue, VkQueue> {
   void end_label();
 
  private:
-  VkResult push(std::deque<Submission> submissions);
+  template <class Batch, class Fill>
+  VkResult push(std::span<const Batch> batches, Fence* fence, const Fill& fill);
+  Submission& add_to(SubmissionList& list);
   void work();
+  Submission* next(Submission* finished);
   void wait_for(const std::vector<Semaphore*>& semaphores);
   void execute(const Submission& submission);
-  void finish(const Submission& submission);
+  void finish(Submission& submission);
 
   DeviceContext& device_;
   CommandExecutor executor_;
-  std::mutex mutex_;  // of the members below
   std::condition_variable wake_;
-  std::deque<Submission> submissions_;
+  std::atomic<bool> work_to_do_{false};  // submissions, or to quit: what the thread looks at while it spins
+  // Guarded by device_.sync.mutex.
+  SubmissionList submitted_;
+  SubmissionList unused_;
   std::vector<std::string> labels_;
   bool quit_ = false;
-  uint64_t pending_ = 0;  // submissions not yet finished; guarded by device_.sync.mutex
-  std::thread thread_;
+  uint64_t pending_ = 0;  // submissions not yet finished
+  std::thread thread_;    // made by the first submission
 };
 
 }  // namespace lapilli
