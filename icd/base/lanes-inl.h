@@ -22,6 +22,8 @@
 //   to_float, to_int, to_uint, to_double  conversions: lanes_convert-inl.h; pack_half, unpack_half
 //   mask_of(word, index)      lanes index * kVectorLanes … of a 64-lane word as M; bits_of(m) the other way, unshifted
 //   gather32(base, byte_offsets, m)  32-bit values at base + offset (below 2^31, any alignment), 0 where m is not set
+//   gather_pairs(base, byte_offsets, first, second)  the words at base + offset and 4 bytes behind it, in all lanes
+//   byte_of<n>(u)             byte n of each lane
 //   pack_bytes(c0, c1, c2, c3)  bytes from integers up to 255; byte_over_255<n>(u) a byte as a fraction
 //   swap_columns, swap_rows   of U, within each 2x2 quad of lanes
 //   canonical(f)              every NaN as 0x7FC00000

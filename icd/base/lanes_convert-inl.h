@@ -36,9 +36,22 @@ HWY_API U to_uint(F a) {
 
 // Both halves are exact as floats; their sum rounds once.
 HWY_API F to_float(U a) {
+#if HWY_TARGET == HWY_AVX3
+  return F{_mm512_cvtepu32_ps(a.raw)};
+#else
   const F high = to_float(as_i(shift_right<16>(a)));
   const F low = to_float(as_i(a & broadcast(0xFFFFu)));
   return high * broadcast(65536.0f) + low;
+#endif
+}
+
+// Byte kByte of every lane over 255, correctly rounded.
+template <int kByte>
+HWY_API F byte_over_255(U a) {
+  // 1/255 as two floats. The upper one has 9 bits, so that its product with a byte is exact and the sum is rounded
+  // once.
+  const F code = to_float(as_i(byte_of<kByte>(a)));
+  return fma_exact(code, broadcast(0x1.01p-8f), code * broadcast(0x1.010102p-24f));
 }
 
 HWY_API D to_double(U a) { return to_double(as_i(a ^ broadcast(0x80000000u))) + broadcast(2147483648.0); }

@@ -193,10 +193,18 @@ HWY_API F round_even(F a) { return hn::Round(a); }
 HWY_API F floor(F a) { return hn::Floor(a); }
 HWY_API F ceil(F a) { return hn::Ceil(a); }
 HWY_API F to_float(I a) { return hn::ConvertTo(FTag(), a); }
-// |a| < 2^31
+// |a| < 2^31; the other rounds to nearest even. Highway's own conversions saturate, in five instructions. On x86 what
+// is out of range, or a NaN, becomes INT_MIN.
+#if HWY_TARGET == HWY_AVX3
+HWY_API I truncate_in_range(F a) { return I{_mm512_cvttps_epi32(a.raw)}; }
+HWY_API I nearest_in_range(F a) { return I{_mm512_cvtps_epi32(a.raw)}; }
+#elif HWY_TARGET == HWY_AVX2
+HWY_API I truncate_in_range(F a) { return I{_mm256_cvttps_epi32(a.raw)}; }
+HWY_API I nearest_in_range(F a) { return I{_mm256_cvtps_epi32(a.raw)}; }
+#else
 HWY_API I truncate_in_range(F a) { return hn::ConvertTo(ITag(), a); }
-// |a| < 2^31, rounded to nearest even
 HWY_API I nearest_in_range(F a) { return hn::NearestInt(a); }
+#endif
 
 // Doubles.
 HWY_API D broadcast(double x) { return {hn::Set(DTag(), x), hn::Set(DTag(), x)}; }
@@ -300,15 +308,51 @@ HWY_API U pack_bytes(I c0, I c1, I c2, I c3) {
   return hn::Or(hn::Or(byte(c0), shift_left<8>(byte(c1))), hn::Or(shift_left<16>(byte(c2)), shift_left<24>(byte(c3))));
 #endif
 }
-#if HWY_TARGET == HWY_AVX3
-// Byte kByte of every lane in all four bytes of the lane.
+// Byte kByte of every lane as a number.
 template <int kByte>
-HWY_API U repeat_byte(U a) {
-  constexpr int b = kByte * 0x01010101;
-  const __m512i indices = _mm512_set4_epi32(b + 0x0C0C0C0C, b + 0x08080808, b + 0x04040404, b);
-  return U{_mm512_shuffle_epi8(a.raw, indices)};
-}
+HWY_API U byte_of(U a) {
+  if constexpr (kByte == 0) return hn::And(a, broadcast(0xFFu));
+  if constexpr (kByte == 3) return shift_right<24>(a);
+#if HWY_TARGET == HWY_AVX3
+  constexpr int b = static_cast<int>(0x80808000u) + kByte;  // 0x80 writes a zero
+  return U{_mm512_shuffle_epi8(a.raw, _mm512_set4_epi32(b + 12, b + 8, b + 4, b))};
+#elif HWY_TARGET == HWY_AVX2
+  constexpr int b = static_cast<int>(0x80808000u) + kByte;
+  return U{_mm256_shuffle_epi8(a.raw, _mm256_broadcastsi128_si256(_mm_set_epi32(b + 12, b + 8, b + 4, b)))};
+#else
+  return hn::And(shift_right<8 * kByte>(a), broadcast(0xFFu));
 #endif
+}
+// The two words at base + offset, in all lanes.
+HWY_API void gather_pairs(const void* base, U byte_offsets, U& first, U& second) {
+#if HWY_TARGET == HWY_AVX3
+  const __m512i low = _mm512_i32gather_epi64(_mm512_castsi512_si256(byte_offsets.raw), base, 1);
+  const __m512i high = _mm512_i32gather_epi64(_mm512_extracti64x4_epi64(byte_offsets.raw, 1), base, 1);
+  const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
+  const __m512i odd = _mm512_setr_epi32(1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31);
+  first = U{_mm512_permutex2var_epi32(low, even, high)};
+  second = U{_mm512_permutex2var_epi32(low, odd, high)};
+#elif HWY_TARGET == HWY_AVX2
+  const auto* const pairs = static_cast<const long long*>(base);
+  const __m256i low = _mm256_i32gather_epi64(pairs, _mm256_castsi256_si128(byte_offsets.raw), 1);
+  const __m256i high = _mm256_i32gather_epi64(pairs, _mm256_extracti128_si256(byte_offsets.raw, 1), 1);
+  const __m256 a = _mm256_castsi256_ps(low), b = _mm256_castsi256_ps(high);
+  // In each half: two of `low`, two of `high`.
+  const __m256i even = _mm256_castps_si256(_mm256_shuffle_ps(a, b, _MM_SHUFFLE(2, 0, 2, 0)));
+  const __m256i odd = _mm256_castps_si256(_mm256_shuffle_ps(a, b, _MM_SHUFFLE(3, 1, 3, 1)));
+  first = U{_mm256_permute4x64_epi64(even, _MM_SHUFFLE(3, 1, 2, 0))};
+  second = U{_mm256_permute4x64_epi64(odd, _MM_SHUFFLE(3, 1, 2, 0))};
+#else
+  alignas(64) uint32_t offsets[kVectorLanes], pairs[2][kVectorLanes];
+  store(byte_offsets, offsets);
+  for (int lane = 0; lane < kVectorLanes; ++lane) {
+    __builtin_memcpy(&pairs[0][lane], static_cast<const char*>(base) + offsets[lane], 4);
+    __builtin_memcpy(&pairs[1][lane], static_cast<const char*>(base) + offsets[lane] + 4, 4);
+  }
+  first = load<U>(pairs[0]);
+  second = load<U>(pairs[1]);
+#endif
+}
 // Within each 2x2 quad: lanes (1, 0, 3, 2) and lanes (2, 3, 0, 1).
 HWY_API U swap_columns(U a) { return hn::Shuffle2301(a); }
 HWY_API U swap_rows(U a) { return hn::Shuffle1032(a); }

@@ -341,6 +341,20 @@ HWY_API U pack_bytes(I c0, I c1, I c2, I c3) {
   const __m128i pairs = _mm_unpacklo_epi8(bytes, _mm_srli_si128(bytes, 8));
   return {_mm_unpacklo_epi16(pairs, _mm_srli_si128(pairs, 8))};
 }
+template <int kByte>
+HWY_API U byte_of(U a) {
+  if constexpr (kByte == 3) return shift_right<24>(a);
+  return shift_right<8 * kByte>(a) & broadcast(0xFFu);
+}
+HWY_API void gather_pairs(const void* base, U byte_offsets, U& first, U& second) {
+  alignas(16) uint32_t offsets[kVectorLanes];
+  store(byte_offsets, offsets);
+  const char* const p = static_cast<const char*>(base);
+  const __m128i a = _mm_unpacklo_epi32(_mm_loadu_si64(p + offsets[0]), _mm_loadu_si64(p + offsets[1]));
+  const __m128i b = _mm_unpacklo_epi32(_mm_loadu_si64(p + offsets[2]), _mm_loadu_si64(p + offsets[3]));
+  first = {_mm_unpacklo_epi64(a, b)};
+  second = {_mm_unpackhi_epi64(a, b)};
+}
 HWY_API U swap_columns(U a) { return {_mm_shuffle_epi32(a.raw, _MM_SHUFFLE(2, 3, 0, 1))}; }
 HWY_API U swap_rows(U a) { return {_mm_shuffle_epi32(a.raw, _MM_SHUFFLE(1, 0, 3, 2))}; }
 HWY_API U lane_numbers() { return {_mm_set_epi32(3, 2, 1, 0)}; }

@@ -71,6 +71,22 @@ void store_and_load(benchmark::State& state, VkFormat format, bool whole_block) 
   }
 }
 
+// Source alpha over, as 32 layers do it.
+void blend(benchmark::State& state, bool whole_block) {
+  if (!choose(state)) return;
+  const TexelFunctions& functions = texel_functions(*find_format(VK_FORMAT_R8G8B8A8_UNORM));
+  std::vector<std::byte> plane(kTileTexels * 4);
+  Batch batch;
+  move_batch(batch, 0);
+  for (auto& reg : batch.rgba) std::copy(batch.u, batch.u + 64, reg);
+  uint16_t quads[16];
+  for (uint16_t q = 0; q < 16; ++q) quads[q] = static_cast<uint16_t>(whole_block ? q : q * 32);
+  const BlendEquation equation = {{{1, 0}, {0, 1}}, {{-1, 1}, {-1, 1}}, 15};
+  for (auto _ : state) {
+    functions.blend_quads(plane.data(), {quads, whole_block}, ~uint64_t{0}, batch.in, equation);
+  }
+}
+
 void move_tile(benchmark::State& state) {
   const auto texel_size = static_cast<uint32_t>(state.range(0));
   const uint64_t pitch = uint64_t{1280} * texel_size;
@@ -100,6 +116,8 @@ BENCHMARK_CAPTURE(store_and_load, depth, VK_FORMAT_D32_SFLOAT, false)->DenseRang
 BENCHMARK_CAPTURE(store_and_load, rgba8_block, VK_FORMAT_R8G8B8A8_UNORM, true)->DenseRange(0, 2);
 BENCHMARK_CAPTURE(store_and_load, rgba32f_block, VK_FORMAT_R32G32B32A32_SFLOAT, true)->DenseRange(0, 2);
 BENCHMARK_CAPTURE(store_and_load, depth_block, VK_FORMAT_D32_SFLOAT, true)->DenseRange(0, 2);
+BENCHMARK_CAPTURE(blend, quads, false)->DenseRange(0, 2);
+BENCHMARK_CAPTURE(blend, block, true)->DenseRange(0, 2);
 BENCHMARK(move_tile)->Arg(4)->Arg(16);
 
 }  // namespace

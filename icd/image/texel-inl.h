@@ -20,8 +20,8 @@ namespace HWY_NAMESPACE {
 inline constexpr float kUpper255th = 0x1.01p-8f;
 inline constexpr float kLower255th = 0x1.010102p-24f;
 
-// The integers 0 … 255 as floats. (No fma: it would give the same, and is slow where it is emulated.)
-HWY_API F unorm8_to_float(F code) { return code * broadcast(kUpper255th) + code * broadcast(kLower255th); }
+// The integers 0 … 255 as floats.
+HWY_API F unorm8_to_float(F code) { return fma_exact(code, broadcast(kUpper255th), code * broadcast(kLower255th)); }
 // Any number of them, such as a filtered one; the error is below 1 ULP, and integers give what unorm8_to_float gives.
 HWY_API F unorm8_between_to_float(F code) { return fma(code, broadcast(kUpper255th), code * broadcast(kLower255th)); }
 
@@ -29,6 +29,14 @@ HWY_API F unorm8_between_to_float(F code) { return fma(code, broadcast(kUpper255
 HWY_API U float_to_unorm(F value, float largest) {
   const F clamped = min(max(zero_f(), value), broadcast(1.0f));  // max(0, NaN) is 0
   return as_u(nearest_in_range(clamped * broadcast(largest)));
+}
+
+// The same for a whole texel, from byte 0 on: to integers, of which the packing drops what is below 0.
+HWY_API I float_to_unorm8(F value) {
+  return nearest_in_range(min(value * broadcast(255.0f), broadcast(255.0f)));  // a NaN becomes INT_MIN
+}
+HWY_API U pack_unorm8(F c0, F c1, F c2, F c3) {
+  return pack_bytes(float_to_unorm8(c0), float_to_unorm8(c1), float_to_unorm8(c2), float_to_unorm8(c3));
 }
 
 template <size_t kFormat>
@@ -69,6 +77,7 @@ struct Texel {
       return c < 3 ? zero_f() : kInfo.is_integer() ? as_f(broadcast(1u)) : broadcast(1.0f);
     } else if constexpr (layout.kind == ComponentKind::unorm) {
       static_assert(layout.bits <= 16);
+      if constexpr (kFiltersCodes) return to_float(as_i(byte_of<shift_of(c) / 8>(words[0])));
       return to_float(as_i(field<c>(words)));
     } else if constexpr (layout.kind == ComponentKind::sint && layout.bits < 32) {
       constexpr int unused = 32 - layout.bits;
@@ -92,7 +101,22 @@ struct Texel {
     }
   }
 
+  // The component that byte kByte of a texel of bytes holds.
+  static constexpr int component_of_byte(int byte) {
+    for (int c = 0; c < 4; ++c) {
+      if (shift_of(c) == 8 * byte) return c;
+    }
+    return 0;
+  }
+
   HWY_API void decode(const U* words, F* rgba) {
+    if constexpr (kFiltersCodes) {
+      rgba[0] = byte_over_255<shift_of(0) / 8>(words[0]);
+      rgba[1] = byte_over_255<shift_of(1) / 8>(words[0]);
+      rgba[2] = byte_over_255<shift_of(2) / 8>(words[0]);
+      rgba[3] = byte_over_255<shift_of(3) / 8>(words[0]);
+      return;
+    }
     rgba[0] = finish_code<0>(decode_code<0>(words));
     rgba[1] = finish_code<1>(decode_code<1>(words));
     rgba[2] = finish_code<2>(decode_code<2>(words));
@@ -113,6 +137,11 @@ struct Texel {
   }
 
   HWY_API void encode(const F* rgba, U* words) {
+    if constexpr (kFiltersCodes) {
+      words[0] = pack_unorm8(rgba[component_of_byte(0)], rgba[component_of_byte(1)], rgba[component_of_byte(2)],
+                             rgba[component_of_byte(3)]);
+      return;
+    }
     for (size_t word = 0; word < kWords; ++word) words[word] = zero_u();
     encode_component<0>(rgba[0], words);
     encode_component<1>(rgba[1], words);

@@ -189,6 +189,82 @@ void store_quads(std::byte* plane, const QuadPlaces& places, uint64_t lanes, con
   write_quads<T::kWords>(words, plane, places, lanes);
 }
 
+// A blend equation in vectors.
+struct VectorFactor {
+  F slope, offset;
+  HWY_INLINE explicit VectorFactor(const BlendEquation::Factor& f)
+      : slope(broadcast(f.slope)), offset(broadcast(f.offset)) {}
+  HWY_INLINE F of(F alpha) const { return fma_exact(alpha, slope, offset); }
+};
+struct Blender {
+  VectorFactor source_color, source_alpha, destination_color, destination_alpha;
+  HWY_INLINE explicit Blender(const BlendEquation& e)
+      : source_color(e.source[0]),
+        source_alpha(e.source[1]),
+        destination_color(e.destination[0]),
+        destination_alpha(e.destination[1]) {}
+
+  template <class T>
+  HWY_INLINE U blend(const float* const source[4], int vector, U old) const {
+    F s[4], d[4];
+    for (int c = 0; c < 4; ++c) {
+      s[c] = source[c] != nullptr ? load<F>(source[c] + vector * kVectorLanes) : zero_f();
+      s[c] = min(max(zero_f(), s[c]), broadcast(1.0f));
+    }
+    T::decode(&old, d);
+    const F by = source_color.of(s[3]);
+    const F destination_by = destination_color.of(s[3]);
+    F result[4];
+    for (int c = 0; c < 3; ++c) result[c] = fma(d[c], destination_by, s[c] * by);
+    result[3] = fma(d[3], destination_alpha.of(s[3]), s[3] * source_alpha.of(s[3]));
+    U texel;
+    T::encode(result, &texel);
+    return texel;
+  }
+};
+
+template <class T>
+void blend_block(std::byte* block, uint64_t lanes, const float* const source[4], const Blender& blender,
+                 const ComponentBits<T>& bits) {
+  const bool everything = bits.all && lanes == ~uint64_t{0};
+  for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
+    std::byte* const texels = vector_of_block<1>(block, vector);
+    const U old = load_unaligned<U>(texels);
+    U texel = blender.blend<T>(source, vector, old);
+    if (!everything) {
+      const U taken = mask_to_u(mask_of(lanes, vector)) & broadcast(bits.word[0]);
+      texel = (texel & taken) | and_not(taken, old);
+    }
+    store_unaligned(texel, texels);
+  }
+}
+
+template <size_t kFormat>
+void blend_quads(std::byte* plane, const QuadPlaces& places, uint64_t lanes, const float* const source[4],
+                 const BlendEquation& equation) {
+  using T = Texel<kFormat>;
+  const ComponentBits<T> bits(equation.components);
+  const Blender blender(equation);
+  if (places.whole_block) return blend_block<T>(plane + places.quad[0] * 16, lanes, source, blender, bits);
+  BatchWords<1> old, words;
+  read_quads<1>(plane, places, lanes, old);
+  for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
+    const int first = vector * kVectorLanes;
+    store(blender.blend<T>(source, vector, load<U>(&old.word[0][first])), &words.word[0][first]);
+  }
+  if (!bits.all) keep_other_components(old, bits.word, words);
+  write_quads<1>(words, plane, places, lanes);
+}
+
+template <size_t kFormat>
+constexpr auto blend_of() -> decltype(TexelFunctions::blend_quads) {
+  if constexpr (Texel<kFormat>::kFiltersCodes) {
+    return blend_quads<kFormat>;
+  } else {
+    return nullptr;
+  }
+}
+
 template <size_t kFormat>
 void load_gathered(const std::byte* base, const uint32_t* byte_offsets, uint64_t lanes, float* const registers[4]) {
   using T = Texel<kFormat>;
@@ -206,7 +282,8 @@ void load_gathered(const std::byte* base, const uint32_t* byte_offsets, uint64_t
 
 template <size_t... kIndices>
 constexpr std::array<TexelFunctions, sizeof...(kIndices)> make_table(std::index_sequence<kIndices...>) {
-  return {TexelFunctions{load_quads<kIndices>, store_quads<kIndices>, load_gathered<kIndices>}...};
+  return {
+      TexelFunctions{blend_of<kIndices>(), load_quads<kIndices>, store_quads<kIndices>, load_gathered<kIndices>}...};
 }
 
 }  // namespace

@@ -18,6 +18,16 @@ struct QuadPlaces {
   bool whole_block = false;
 };
 
+// result = fma(destination, destination factor, source * source factor), where a factor is fma(source alpha, slope,
+// offset) and the source is clamped to [0, 1] first, a NaN to 0. Slopes are -1, 0 or 1. [0]: R G B, [1]: A.
+struct BlendEquation {
+  struct Factor {
+    float slope, offset;
+  };
+  Factor source[2], destination[2];
+  uint32_t components;  // those that are written
+};
+
 // Registers are 64 floats (or integers' bits), 64-byte aligned; a null register of a load is not written. Lane i is bit
 // i of `lanes`. Lanes 4q … 4q+3 are the four texels of places.quad[q], which is touched only where one of its lanes is
 // set (or in a whole block), and written in the lanes that are set only.
@@ -25,6 +35,9 @@ struct QuadPlaces {
 //   integer, half to even. A NaN stored as a float becomes 0x7FC00000. Components that the format lacks load as 0,
 //   alpha as 1.
 struct TexelFunctions {
+  // Blends registers of a source colour into the texels. Formats of four UNORM8 components; null for others.
+  void (*blend_quads)(std::byte* plane, const QuadPlaces& places, uint64_t lanes, const float* const source[4],
+                      const BlendEquation& equation);
   // Lanes outside of `lanes` get some value.
   void (*load_quads)(const std::byte* plane, const QuadPlaces& places, uint64_t lanes, float* const registers[4]);
   // Changes the components whose bit is set in `components` (1 R, 2 G, 4 B, 8 A), in the lanes of `lanes`.

@@ -26,12 +26,14 @@ struct Axis {
   F size;   // texels
   F scale;  // texels of one unit of the coordinate: size, or 1 for unnormalized coordinates
   F last;   // size - 1
+  I last_index;
   VkSamplerAddressMode mode;
 };
 
 HWY_API Axis make_axis(int32_t size, VkSamplerAddressMode mode, bool unnormalized) {
   const float texels = static_cast<float>(size);
-  return {broadcast(texels), broadcast(unnormalized ? 1.0f : texels), broadcast(texels - 1.0f), mode};
+  return {broadcast(texels), broadcast(unnormalized ? 1.0f : texels), broadcast(texels - 1.0f), broadcast(size - 1),
+          mode};
 }
 
 // A texel on one axis; where not inside, the border is read and `index` is not in the image.
@@ -63,10 +65,9 @@ struct WrapRepeat {
     const F fraction = max(zero_f(), s - floor(s));  // 1 for tiny negative s
     const F x = fma(fraction, axis.size, broadcast(-0.5f));
     const F x0 = floor(x);
-    const F before_first = axis.last;  // -1 and size wrap
-    const F index0 = select(lt(x0, zero_f()), before_first, x0);
-    const F index1 = select(lt(index0, axis.last), index0 + broadcast(1.0f), zero_f());
-    return {truncate_in_range(index0), truncate_in_range(index1), all_lanes(), all_lanes(), x - x0};
+    const I index0 = as_i(min(as_u(truncate_in_range(x0)), as_u(axis.last_index)));  // -1 and size wrap
+    const I index1 = select(lt(index0, axis.last_index), index0 + broadcast(1), zero_i());
+    return {index0, index1, all_lanes(), all_lanes(), x - x0};
   }
 };
 
@@ -100,7 +101,7 @@ struct WrapClampToEdge {
     const F x = clamp_or_low(fma(s, axis.scale, broadcast(-0.5f)), zero_f(), axis.last);
     const I index0 = truncate_in_range(x);
     const F x0 = to_float(index0);
-    const I index1 = truncate_in_range(min(x0 + broadcast(1.0f), axis.last));
+    const I index1 = min(index0 + broadcast(1), axis.last_index);
     return {index0, index1, all_lanes(), all_lanes(), x - x0};
   }
 };

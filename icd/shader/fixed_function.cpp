@@ -3,6 +3,9 @@
 // first; float ones do not.
 #include "shader/fixed_function.h"
 
+#include <algorithm>
+#include <optional>
+
 #include "image/format.h"
 
 namespace lapilli {
@@ -122,7 +125,59 @@ bool is_supported(VkBlendFactor factor) {
   return factor >= VK_BLEND_FACTOR_ZERO && factor <= VK_BLEND_FACTOR_SRC_ALPHA_SATURATE;
 }
 
+bool is_unorm8(const FormatInfo* format) {
+  return format != nullptr &&
+         std::all_of(format->components.begin(), format->components.end(),
+                     [](const ComponentLayout& c) { return c.kind == ComponentKind::unorm && c.bits == 8; });
+}
+
+std::optional<uint32_t> blend_term(VkBlendFactor factor) {
+  switch (factor) {
+    case VK_BLEND_FACTOR_ZERO:
+      return static_cast<uint32_t>(BlendTerm::zero);
+    case VK_BLEND_FACTOR_ONE:
+      return static_cast<uint32_t>(BlendTerm::one);
+    case VK_BLEND_FACTOR_SRC_ALPHA:
+      return static_cast<uint32_t>(BlendTerm::source_alpha);
+    case VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA:
+      return static_cast<uint32_t>(BlendTerm::one_minus_source_alpha);
+    default:
+      return std::nullopt;
+  }
+}
+
+// The imm2 of blend_color; none where the equation is not of its kind or does not read the destination.
+std::optional<uint32_t> blend_word(const VkPipelineColorBlendAttachmentState& state, uint32_t mask) {
+  const VkBlendFactor factors[] = {state.srcColorBlendFactor, state.dstColorBlendFactor, state.srcAlphaBlendFactor,
+                                   state.dstAlphaBlendFactor};
+  if (state.colorBlendOp > VK_BLEND_OP_REVERSE_SUBTRACT || state.alphaBlendOp > VK_BLEND_OP_REVERSE_SUBTRACT) return {};
+  if (factors[1] == VK_BLEND_FACTOR_ZERO && factors[3] == VK_BLEND_FACTOR_ZERO) return {};
+  uint32_t word = mask;
+  for (uint32_t i = 0; i < 4; ++i) {
+    const std::optional<uint32_t> term = blend_term(factors[i]);
+    if (!term) return {};
+    word |= *term << (4 + 2 * i);
+  }
+  return word | static_cast<uint32_t>(state.colorBlendOp) << 12 | static_cast<uint32_t>(state.alphaBlendOp) << 14;
+}
+
 }  // namespace
+
+BlendEquation blend_equation(uint32_t word) {
+  constexpr BlendEquation::Factor kFactors[] = {{0, 0}, {0, 1}, {1, 0}, {-1, 1}};  // by BlendTerm
+  BlendEquation equation;
+  equation.components = word & 15;
+  for (uint32_t i = 0; i < 2; ++i) {
+    const uint32_t op = word >> (12 + 2 * i) & 3;
+    const float source_sign = op == VK_BLEND_OP_REVERSE_SUBTRACT ? -1.0f : 1.0f;
+    const float destination_sign = op == VK_BLEND_OP_SUBTRACT ? -1.0f : 1.0f;
+    const BlendEquation::Factor source = kFactors[word >> (4 + 4 * i) & 3];
+    const BlendEquation::Factor destination = kFactors[word >> (6 + 4 * i) & 3];
+    equation.source[i] = {source.slope * source_sign, source.offset * source_sign};
+    equation.destination[i] = {destination.slope * destination_sign, destination.offset * destination_sign};
+  }
+  return equation;
+}
 
 Result<void> emit_color(Code& code, uint32_t index, const VkPipelineColorBlendAttachmentState& state,
                         std::array<Reg, 4> source) {
@@ -136,6 +191,13 @@ Result<void> emit_color(Code& code, uint32_t index, const VkPipelineColorBlendAt
         !is_supported(state.srcAlphaBlendFactor) || !is_supported(state.dstAlphaBlendFactor))
       return Error{VK_ERROR_UNKNOWN, "blending with a second source colour is not supported"};
     const FormatInfo* format = find_format(code.color_formats[index]);
+    if (const std::optional<uint32_t> word = blend_word(state, mask); word && is_unorm8(format)) {
+      Instruction& blend = code.append(Opcode::blend_color);
+      blend.imm = index;
+      blend.imm2 = *word;
+      code.set_list(blend, source);
+      return {};
+    }
     const bool clamps = format != nullptr && format->components[0].kind == ComponentKind::unorm;
     Blender blender(code, index, clamps, source);
     std::array<Reg, 4> blended{kNoReg, kNoReg, kNoReg, kNoReg};

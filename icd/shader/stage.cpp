@@ -195,7 +195,7 @@ void plan_shading(FragmentPlan& plan, const LoweredShader& shader, const Graphic
     ++targets;
     whole = whole && !blends_or_masks(state.blend[i], state.color_formats[i]);
   }
-  for (const Instruction& instruction : shader.code.instructions) stores += instruction.op == Opcode::store_color;
+  for (const Instruction& instruction : shader.code.instructions) stores += writes_color(instruction.op);
   plan.writes_color = stores > 0;
   const bool reads_helpers = find_built_in(shader.built_in_inputs, spv::BuiltIn::HelperInvocation) != nullptr;
   plan.deferrable = plan.writes_color && stores == targets && whole && !shader.kills && !shader.stores &&
@@ -284,7 +284,7 @@ void emit_fragment_prologue(LoweredShader& shader, const FragmentPlan& plan, boo
 bool has_effects(const LoweredShader& shader) {
   if (shader.kills || shader.stores) return true;
   return std::any_of(shader.code.instructions.begin(), shader.code.instructions.end(),
-                     [](const Instruction& instruction) { return instruction.op == Opcode::store_color; });
+                     [](const Instruction& instruction) { return writes_color(instruction.op); });
 }
 
 }  // namespace

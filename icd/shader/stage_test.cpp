@@ -116,8 +116,14 @@ TEST_F(Stage, BlendingReadsTheTargetOnlyIfItMust) {
   blend[0].dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
   blend[0].colorWriteMask = 0x7;
   make();
+  EXPECT_EQ(count(code.fragment, Opcode::load_color), 0u);
+  EXPECT_EQ(all(code.fragment, Opcode::blend_color)[0].imm2 & 15, 7u);
+  // What is not of blend_color's kind is written out.
+  blend[0].dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_COLOR;
+  make();
   EXPECT_EQ(count(code.fragment, Opcode::load_color), 1u);
   EXPECT_EQ(count(code.fragment, Opcode::fma), 3u);
+  EXPECT_EQ(count(code.fragment, Opcode::blend_color), 0u);
   EXPECT_EQ(all(code.fragment, Opcode::store_color)[0].imm2, 7u);
   blend[0].srcColorBlendFactor = VK_BLEND_FACTOR_SRC1_COLOR;
   const ShaderStage vertex{parse_or_fail(shaders::kInterfaceVert), "main", {}};

@@ -9,6 +9,7 @@
 #include <hwy/foreach_target.h>
 
 #include "image/texel.h"
+#include "shader/fixed_function.h"
 #include "shader/interpreter/handlers.h"
 #include "shader/interpreter/machine-inl.h"
 
@@ -263,16 +264,33 @@ struct op_load_color {
   }
 };
 
-struct op_store_color {
-  static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
-    const FragmentBatch& batch = *frame->fragments;
+// The registers of an op's list; null where there is none.
+struct ListedColor {
+  const float* registers[4];
+  HWY_INLINE ListedColor(const Op* op, Frame* frame) {
     const uint16_t* const list = frame->lists + op->a;
-    const float* registers[4];
     for (uint32_t i = 0; i < 4; ++i) {
       registers[i] = list[i] == kNoOperand ? nullptr : reinterpret_cast<const float*>(reg(frame, list[i]));
     }
-    frame->colors[op->imm]->store_quads(batch.planes.color[op->imm], places_of(batch), frame->write, registers,
+  }
+};
+
+struct op_store_color {
+  static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
+    const FragmentBatch& batch = *frame->fragments;
+    const ListedColor color(op, frame);
+    frame->colors[op->imm]->store_quads(batch.planes.color[op->imm], places_of(batch), frame->write, color.registers,
                                         op->imm2);
+    return op + 1;
+  }
+};
+
+struct op_blend_color {
+  static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
+    const FragmentBatch& batch = *frame->fragments;
+    const ListedColor color(op, frame);
+    frame->colors[op->imm]->blend_quads(batch.planes.color[op->imm], places_of(batch), frame->write, color.registers,
+                                        blend_equation(op->imm2));
     return op + 1;
   }
 };
@@ -281,6 +299,7 @@ const HandlerEntry kEntries[] = {
     LAPILLI_FAT(frag_linear, false), LAPILLI_FAT(frag_perspective, false), LAPILLI_FAT(frag_depth, true),
     LAPILLI_FAT(interpolate, true),  LAPILLI_FAT(interpolate_flat, true),  LAPILLI_FAT(depth_test, false),
     LAPILLI_CONTROL(count_samples),  LAPILLI_FAT(load_color, false),       LAPILLI_FAT(store_color, false),
+    LAPILLI_FAT(blend_color, false),
 };
 
 }  // namespace

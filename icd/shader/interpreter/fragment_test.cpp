@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "shader/fixed_function.h"
 #include "shader/interpreter/fragment_fixture.h"
 
 namespace lapilli {
@@ -197,6 +198,74 @@ TEST(Op, store_color) {
     for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
       const bool written = (kWrite >> lane & 1) != 0;
       EXPECT_EQ(t.color[t.texel(lane)], written ? 0xFF220044u | lane << 8 : 0x11223344u);
+    }
+  }
+}
+
+// As fixed_function.h and the header of fixed_function.cpp have it, a component at a time.
+float blended(uint32_t word, bool is_alpha, float source, float source_alpha, float destination) {
+  const auto factor = [&](uint32_t term) {
+    const float factors[] = {0.0f, 1.0f, source_alpha, 1.0f - source_alpha};
+    return factors[term];
+  };
+  const uint32_t shift = is_alpha ? 8 : 4;
+  const float by = factor(word >> shift & 3), destination_by = factor(word >> (shift + 2) & 3);
+  const float s = source * by;
+  switch (word >> (is_alpha ? 14 : 12) & 3) {
+    case VK_BLEND_OP_ADD:
+      return std::fma(destination, destination_by, s);
+    case VK_BLEND_OP_SUBTRACT:
+      return std::fma(-destination, destination_by, s);
+    default:
+      return std::fma(destination, destination_by, -s);
+  }
+}
+
+// NaN, infinity, outside of 0 .. 1, and many values inside.
+float some_color(std::mt19937& random) {
+  const float special[] = {NAN, INFINITY, -INFINITY, -0.5f, 1.5f, 0, 1, -0.0f};
+  return random() % 8 == 0 ? special[random() % 8] : static_cast<float>(random() % 65537) / 65536.0f;
+}
+
+TEST(Op, blend_color) {
+  const uint16_t list[] = {0, 1, 2, 3};
+  for (SimdTarget target : supported_simd_targets()) {
+    FragmentTest t(target, true);
+    t.test.frame().lists = list;
+    std::mt19937 random(1);
+    for (uint32_t word = 15; word < 1u << 16; word += 16) {
+      if (!is_blend_word(word) || (target == SimdTarget::kBaseline && word % 112 != 15)) continue;
+      const bool block = word % 32 == 15;
+      t.batch.whole_block = block;
+      for (uint32_t q = 0; q < kBatchQuads; ++q)
+        t.batch.quad_in_tile[q] = static_cast<uint16_t>(block ? 5 * 16 + q : q * 61 % 1024);
+      for (uint32_t& texel : t.color) texel = static_cast<uint32_t>(random());
+      uint32_t before[4096];
+      std::copy(std::begin(t.color), std::end(t.color), before);
+      Lanes source[4];
+      for (auto& lanes : source) {
+        for (uint32_t& lane : lanes) lane = u(some_color(random));
+      }
+      for (uint32_t c = 0; c < 4; ++c) t.test.write(c, source[c]);
+      const uint64_t write = word % 48 == 15 ? ~uint64_t{0} : uint64_t{random()} << 32 | uint64_t{random()};
+      const uint32_t mask = word % 64 == 15 ? 15 : static_cast<uint32_t>(random() % 16);
+      t.test.frame().write = write;
+      t.test.add(Opcode::blend_color, kStore, operands(0, 0, 0, 0, 0, (word & ~15u) | mask));
+      t.test.run();
+      for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
+        uint32_t expected = before[t.texel(lane)];
+        const auto clamped = [&](uint32_t c) {
+          return f(source[c][lane]) > 0 ? std::min(f(source[c][lane]), 1.0f) : 0;
+        };
+        for (uint32_t c = 0; c < 4 && (write >> lane & 1) != 0; ++c) {
+          if ((mask >> c & 1) == 0) continue;
+          const float stored = static_cast<float>(before[t.texel(lane)] >> (8 * c) & 255) / 255.0f;
+          const float result = std::clamp(blended(word, c == 3, clamped(c), clamped(3), stored), 0.0f, 1.0f);
+          const auto code = static_cast<uint32_t>(std::nearbyint(result * 255.0f));
+          expected = (expected & ~(255u << (8 * c))) | code << (8 * c);
+        }
+        ASSERT_EQ(t.color[t.texel(lane)], expected) << word << ' ' << lane;
+      }
     }
   }
 }
