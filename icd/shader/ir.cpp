@@ -1,23 +1,10 @@
-// The table of ops as data, and the functions that build a Code.
+// What the ops' immediates are, and the functions that build a Code.
 #include "shader/ir.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 
 namespace lapilli {
-namespace {
-
-constexpr std::array<OpInfo, static_cast<size_t>(Opcode::kCount)> kOps = {{
-#define OP(name, results, operands, effects, cost, equation) {#name, results, operands, effects, cost, equation},
-#include "shader/ops.def"
-#undef OP
-}};
-
-}  // namespace
-
-const OpInfo& op_info(Opcode opcode) { return kOps[static_cast<size_t>(opcode)]; }
-
 ImmRoles imm_roles(Opcode opcode) {
   switch (opcode) {
     case Opcode::load_array:

@@ -39,7 +39,12 @@ struct OpInfo {
   uint32_t cost;         // in units of one plain add over 64 lanes
   const char* equation;  // "R[D] := R[A] + R[B]"
 };
-const OpInfo& op_info(Opcode opcode);
+inline constexpr OpInfo kOps[] = {
+#define OP(name, results, operands, effects, cost, equation) {#name, results, operands, effects, cost, equation},
+#include "shader/ops.def"
+#undef OP
+};
+inline const OpInfo& op_info(Opcode opcode) { return kOps[static_cast<size_t>(opcode)]; }
 
 // What an instruction's imm and imm2 are.
 enum class ImmRole : uint8_t {

@@ -1,5 +1,5 @@
 // Checks what the passes and the interpreter rely on. The first defect found is described; an empty string means none.
-#include <cstring>
+#include <array>
 
 #include "shader/fixed_function.h"
 #include "shader/ir.h"
@@ -15,6 +15,28 @@ struct Loop {
   uint32_t header = 0;
   uint32_t last = 0;  // the instruction `loop`
 };
+
+// Columns of ops.def: bit 0 to 2 for a, b, c.
+struct Operands {
+  uint8_t required = 0, allowed = 0;
+  bool list = false;
+};
+constexpr auto kOperands = [] {
+  std::array<Operands, static_cast<size_t>(Opcode::kCount)> all{};
+  for (size_t op = 0; op < all.size(); ++op) {
+    for (const char* letter = kOps[op].operands; *letter != 0; ++letter) {
+      const bool optional = *letter >= 'A' && *letter <= 'C';
+      if (*letter == 'l') {
+        all[op].list = true;
+        continue;
+      }
+      const uint8_t bit = static_cast<uint8_t>(1 << (*letter - (optional ? 'A' : 'a')));
+      all[op].allowed = static_cast<uint8_t>(all[op].allowed | bit);
+      if (!optional) all[op].required = static_cast<uint8_t>(all[op].required | bit);
+    }
+  }
+  return all;
+}();
 
 class Verifier {
  public:
@@ -132,17 +154,18 @@ class Verifier {
     if (info.results < 0 && (instruction.results == 0 || instruction.results > kMaxResults)) {
       return fail_here("wrong number of results");
     }
-    return check_operand(info, 'a', instruction.a) && check_operand(info, 'b', instruction.b) &&
-           check_operand(info, 'c', instruction.c) && check_list(info, instruction) &&
-           check_imm(imm_roles(instruction.op).imm, instruction.imm) &&
-           check_imm(imm_roles(instruction.op).imm2, instruction.imm2) && check_special(instruction) &&
-           check_results(instruction);
+    const Operands& operands = kOperands[static_cast<size_t>(instruction.op)];
+    const ImmRoles roles = imm_roles(instruction.op);
+    return check_operand(operands, 0, instruction.a) && check_operand(operands, 1, instruction.b) &&
+           check_operand(operands, 2, instruction.c) && check_list(operands.list, instruction) &&
+           check_imm(roles.imm, instruction.imm) && check_imm(roles.imm2, instruction.imm2) &&
+           check_special(instruction) && check_results(instruction);
   }
 
-  bool check_operand(const OpInfo& info, char letter, Reg reg) {
-    const bool required = std::strchr(info.operands, letter) != nullptr;
-    if (reg == kNoReg) return required ? fail_operand(letter, "is missing") : true;
-    const bool allowed = required || std::strchr(info.operands, letter - 'a' + 'A') != nullptr;
+  bool check_operand(const Operands& operands, int number, Reg reg) {
+    const char letter = static_cast<char>('a' + number);
+    if (reg == kNoReg) return (operands.required >> number & 1) != 0 ? fail_operand(letter, "is missing") : true;
+    const bool allowed = (operands.allowed >> number & 1) != 0;
     return allowed ? check_use(letter, reg) : fail_operand(letter, "is not used by this op");
   }
 
@@ -164,8 +187,7 @@ class Verifier {
     return fail_operand(which, "was defined in a loop that has ended; it needs a masked copy");
   }
 
-  bool check_list(const OpInfo& info, const Instruction& instruction) {
-    const bool has_list = std::strchr(info.operands, 'l') != nullptr;
+  bool check_list(bool has_list, const Instruction& instruction) {
     if (!has_list) return instruction.list_count == 0 ? true : fail_here("takes no operand list");
     if (uint64_t{instruction.list_first} + instruction.list_count > code_.operand_list.size()) {
       return fail_here("list outside the operand list");

@@ -4,9 +4,18 @@
 namespace lapilli {
 namespace {
 
+constexpr uint32_t kNone = 0xFFFFFFFF;
+
 class Marker {
  public:
-  explicit Marker(Code& code) : code_(code), live_(code.instructions.size(), 0), needed_(code.registers.size(), 0) {}
+  explicit Marker(Code& code)
+      : code_(code),
+        live_(code.instructions.size(), 0),
+        needed_(code.registers.size(), 0),
+        last_writer_(code.registers.size(), kNone),
+        writer_before_(code.instructions.size(), kNone) {
+    work_.reserve(code.instructions.size());
+  }
 
   void run() {
     list_writers();
@@ -30,22 +39,19 @@ class Marker {
   }
 
  private:
-  // writers_[first_writer_[reg] .. first_writer_[reg + 1]) are the instructions that write reg. Stores to an array
-  // stand with its first element.
+  // The instructions that write a register, from the last one back: an instruction that writes a variable writes
+  // nothing else. Stores to an array stand with its first element.
   void list_writers() {
-    first_writer_.assign(code_.registers.size() + 2, 0);
-    for_each_write([this](Reg reg, uint32_t) { ++first_writer_[reg + 2]; });
-    for (size_t reg = 2; reg < first_writer_.size(); ++reg) first_writer_[reg] += first_writer_[reg - 1];
-    writers_.resize(first_writer_.back());
-    for_each_write([this](Reg reg, uint32_t i) { writers_[first_writer_[reg + 1]++] = i; });
-  }
-
-  template <class Visit>
-  void for_each_write(Visit&& visit) {
     for (uint32_t i = 0; i < code_.instructions.size(); ++i) {
       const Instruction& instruction = code_.instructions[i];
-      if (instruction.op == Opcode::store_array) visit(code_.arrays[instruction.imm].first, i);
-      for (uint32_t k = 0; k < instruction.results; ++k) visit(instruction.dst + k, i);
+      const bool array = instruction.op == Opcode::store_array;
+      if (instruction.results == 1 || array) {
+        uint32_t& last = last_writer_[array ? code_.arrays[instruction.imm].first : instruction.dst];
+        writer_before_[i] = last;
+        last = i;
+        continue;
+      }
+      for (uint32_t k = 0; k < instruction.results; ++k) last_writer_[instruction.dst + k] = i;
     }
   }
 
@@ -58,7 +64,7 @@ class Marker {
   void need(Reg reg) {
     if (needed_[reg] != 0) return;
     needed_[reg] = 1;
-    for (uint32_t k = first_writer_[reg]; k < first_writer_[reg + 1]; ++k) mark(writers_[k]);
+    for (uint32_t i = last_writer_[reg]; i != kNone; i = writer_before_[i]) mark(i);
     const uint32_t array = code_.registers[reg].array;
     if (array != kNoReg) need(code_.arrays[array].first);
   }
@@ -81,8 +87,8 @@ class Marker {
   Code& code_;
   std::vector<uint8_t> live_;
   std::vector<uint8_t> needed_;
-  std::vector<uint32_t> first_writer_;
-  std::vector<uint32_t> writers_;
+  std::vector<uint32_t> last_writer_;    // by register
+  std::vector<uint32_t> writer_before_;  // by instruction: the one before it that writes the same register
   std::vector<uint32_t> work_;
 };
 

@@ -145,8 +145,10 @@ class Scheduler {
     }
     for (uint32_t next = state.waiting; next != kNone; next = state_[next].next_waiting) stack_.push_back(next);
     // Heavy trees first, because fewer registers are in use then; last of all one for the accumulator.
-    std::stable_sort(ready, ready + count,
-                     [this](const Ready& x, const Ready& y) { return state_[x.root].weight > state_[y.root].weight; });
+    for (int k = 1; k < count; ++k) {
+      for (int j = k; j > 0 && state_[ready[j].root].weight > state_[ready[j - 1].root].weight; --j)
+        std::swap(ready[j], ready[j - 1]);
+    }
     for (int k = count - 1; k >= 0; --k) {
       if (!ready[k].in_accumulator) continue;
       std::rotate(ready + k, ready + k + 1, ready + count);

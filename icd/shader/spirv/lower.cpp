@@ -12,7 +12,13 @@ namespace spirv {
 Lowering::Lowering(const ShaderStage& stage, VkShaderStageFlagBits which, const ResourceLayout& layout)
     : m_(*stage.module), stage_(stage), which_(which), layout_(layout), value_of_(m_.ids.size()) {
   code_.stage = which;
+  values_.reserve(m_.ids.size() + 1);  // one for each id at most: they stay where they are
   values_.emplace_back();
+  types_of_.resize(m_.ids.size());
+  constants_of_.resize(m_.ids.size());
+  constexpr size_t kSome = 512;
+  code_.instructions.reserve(kSome);
+  code_.registers.reserve(2 * kSome);
 }
 
 Result<LoweredShader> Lowering::run() {
@@ -59,11 +65,11 @@ bool Lowering::within_limits() {
 }
 
 std::span<Reg> Lowering::allocate(size_t count) {
-  constexpr size_t kChunk = 4096;
+  constexpr size_t kChunk = 2048;
   pool_size_ += count;
   if (count > chunk_left_) {
     chunk_left_ = std::max(kChunk, count);
-    chunks_.push_back(std::make_unique<Reg[]>(chunk_left_));
+    chunks_.push_back(std::make_unique_for_overwrite<Reg[]>(chunk_left_));
     chunk_next_ = chunks_.back().get();
   }
   const std::span<Reg> regs(chunk_next_, count);
@@ -162,9 +168,9 @@ void Lowering::lower_instruction(const SpirvInst& inst) {
     code_.instructions[i].spirv_word = inst.word;
     code_.instructions[i].line = line_;
   }
-  if (failed() || inst.op == spv::Op::OpPhi) return;
-  const char* signature = find_spirv_op(static_cast<uint32_t>(inst.op))->signature;
   const std::vector<uint32_t>& escaping = frame_->function->escaping;
+  if (failed() || inst.op == spv::Op::OpPhi || escaping.empty()) return;
+  const char* signature = find_spirv_op(static_cast<uint32_t>(inst.op))->signature;
   if (signature[0] == 't' && signature[1] == 'r' && std::binary_search(escaping.begin(), escaping.end(), inst[2]))
     export_from_loop(inst[2]);
 }

@@ -90,10 +90,7 @@ std::optional<uint32_t> fold(spv::Op op, uint32_t a, uint32_t b, uint32_t c) {
 
 }  // namespace
 
-const std::vector<uint32_t>* Lowering::constant_data(uint32_t id) const {
-  const auto found = constants_.find(id);
-  return found == constants_.end() ? nullptr : &found->second;
-}
+const std::vector<uint32_t>* Lowering::constant_data(uint32_t id) const { return constants_of_[id]; }
 
 uint32_t Lowering::specialized(uint32_t id, uint32_t bits) const {
   const std::optional<uint32_t> constant_id = m_.decoration(id, SpirvModule::kWhole, spv::Decoration::SpecId);
@@ -154,7 +151,7 @@ void Lowering::evaluate_constant(const SpirvInst& inst) {
       return fail("is not supported");
   }
   if (!failed() && bits.size() != result.components) return fail("its parts do not fit its type");
-  constants_.emplace(inst[2], std::move(bits));
+  if (constants_of_[inst[2]] == nullptr) constants_of_[inst[2]] = &constants_.emplace_back(std::move(bits));
 }
 
 std::vector<uint32_t> Lowering::evaluate_spec_op(const SpirvInst& inst) {

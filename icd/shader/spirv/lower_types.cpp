@@ -10,10 +10,8 @@ uint64_t saturated(uint64_t count) { return std::min(count, kManyComponents); }
 }  // namespace
 
 const Type& Lowering::type(uint32_t id) {
-  const auto found = types_.find(id);
-  if (found != types_.end()) return found->second;
-  Type resolved = resolve(id);
-  return types_.emplace(id, std::move(resolved)).first->second;
+  if (types_of_[id] == nullptr) types_of_[id] = &types_.emplace_back(resolve(id));
+  return *types_of_[id];
 }
 
 // The depth of types is limited by the reader, and so is the recursion.

@@ -8,7 +8,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -254,11 +253,13 @@ class Lowering {
   Code& code_ = out_.code;
   std::optional<Error> error_;
 
-  std::unordered_map<uint32_t, Type> types_;
-  std::unordered_map<uint32_t, std::vector<uint32_t>> constants_;
+  std::deque<Type> types_;
+  std::vector<const Type*> types_of_;  // id -> type, null: not resolved yet
+  std::deque<std::vector<uint32_t>> constants_;
+  std::vector<const std::vector<uint32_t>*> constants_of_;  // id -> bits, null: no constant
   size_t constant_words_ = 0, constant_registers_ = 0;
   std::vector<uint32_t> value_of_;  // id -> index into values_, 0: none
-  std::deque<Value> values_;
+  std::vector<Value> values_;
   std::deque<Variable> variables_;
   std::vector<std::unique_ptr<Reg[]>> chunks_;
   Reg* chunk_next_ = nullptr;
