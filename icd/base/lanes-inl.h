@@ -5,6 +5,7 @@
 //   M         one condition per lane;  D  as many doubles as F has floats
 //   load<F>(p), store(v, p)   aligned to the vector; load_unaligned<F>, store_unaligned; load_d, store_d for doubles
 //   load_interleaved<n>(p, words), store_interleaved<n>(words, p)  n vectors whose lanes take turns in memory
+//   spread_to_quads(pointers, offset)  pointers[i][offset] to lanes 4i .. 4i+3
 //   broadcast(x)              by the type of x: 1.0f, 1, 1u, 1.0
 //   as_f, as_i, as_u          bit casts
 //   + - * /                   F and D, correctly rounded; + - * & | ^ ~ wrap on I and U; & | ^ ~ and and_not(a, b) on M

@@ -92,6 +92,20 @@ HWY_API F broadcast(float x) { return hn::Set(FTag(), x); }
 HWY_API I broadcast(int32_t x) { return hn::Set(ITag(), x); }
 HWY_API U broadcast(uint32_t x) { return hn::Set(UTag(), x); }
 
+// pointers[i][offset] in the four lanes of quad i.
+HWY_API F spread_to_quads(const float* const* pointers, size_t offset) {
+#if HWY_TARGET == HWY_AVX3
+  __m512 v = _mm512_set1_ps(pointers[0][offset]);
+  v = _mm512_mask_broadcastss_ps(v, 0x00F0, _mm_load_ss(pointers[1] + offset));
+  v = _mm512_mask_broadcastss_ps(v, 0x0F00, _mm_load_ss(pointers[2] + offset));
+  return F{_mm512_mask_broadcastss_ps(v, 0xF000, _mm_load_ss(pointers[3] + offset))};
+#elif HWY_TARGET == HWY_AVX2
+  return F{_mm256_insertf128_ps(_mm256_set1_ps(pointers[0][offset]), _mm_broadcast_ss(pointers[1] + offset), 1)};
+#else
+  return hn::Set(FTag(), pointers[0][offset]);
+#endif
+}
+
 // Bit casts.
 template <class V>
 HWY_API F as_f(V v) {

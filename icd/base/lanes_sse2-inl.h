@@ -86,6 +86,7 @@ HWY_API uint32_t first_lane(U v) { return static_cast<uint32_t>(_mm_cvtsi128_si3
 HWY_API F broadcast(float x) { return {_mm_set1_ps(x)}; }
 HWY_API I broadcast(int32_t x) { return {_mm_set1_epi32(x)}; }
 HWY_API U broadcast(uint32_t x) { return {_mm_set1_epi32(static_cast<int32_t>(x))}; }
+HWY_API F spread_to_quads(const float* const* pointers, size_t offset) { return broadcast(pointers[0][offset]); }
 
 // Bit casts.
 template <class V>

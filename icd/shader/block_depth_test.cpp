@@ -18,17 +18,12 @@ struct BlockTest : FragmentTest {
   static constexpr uint32_t kBlock = 37;
   float* stored = depth + kBlock * 64;
 
-  explicit BlockTest(SimdTarget target, bool nan = false) : FragmentTest(target, true) {
+  explicit BlockTest(SimdTarget target, bool nan = false) : FragmentTest(target, Quads::block) {
     TriangleSetup& t = triangles[0];
     t.edge_c[1] = -(t.edge_a[1] * (kX + 3) + t.edge_b[1] * (kY + 3)) + 77777;
     t.edge_c[2] = -(t.edge_a[2] * (kX + 2) + t.edge_b[2] * (kY + 5)) + 12345;
     t.depth = {nan ? std::nan("") : 0.5, 1.7e-10, -0.9e-9, 0.125f, 0.875f};
-    for (uint32_t q = 0; q < kBatchQuads; ++q) {
-      batch.x[q] = static_cast<uint16_t>(kX + q % 4 * 2);
-      batch.y[q] = static_cast<uint16_t>(kY + q / 4 * 2);
-      batch.quad_in_tile[q] = static_cast<uint16_t>(kBlock * 16 + q);
-    }
-    batch.whole_block = true;
+    use_block(kX, kY, kBlock);
     std::mt19937 random(3);
     for (uint32_t lane = 0; lane < 64; ++lane) {
       // Some equal to the fragment's depth.

@@ -12,95 +12,80 @@
 #include "shader/fixed_function.h"
 #include "shader/interpreter/handlers.h"
 #include "shader/interpreter/machine-inl.h"
+#include "shader/interpreter/planes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lapilli {
 namespace HWY_NAMESPACE {
 namespace {
 
-// The four lanes of a quad.
+// The four lanes of a quad. By reference: a vector of 256 bits is no argument or result of functions on all targets.
 typedef double QuadD __attribute__((vector_size(32)));
 typedef float QuadF __attribute__((vector_size(16)));
 
-// By reference: a vector of 256 bits is no argument or result of functions on all targets.
-HWY_INLINE void store_floats(const QuadD& value, float* lanes) {
-  const QuadF floats = __builtin_convertvector(value, QuadF);
-  std::memcpy(lanes, &floats, sizeof floats);
-}
+HWY_INLINE void store_floats(const QuadF& floats, float* lanes) { std::memcpy(lanes, &floats, sizeof floats); }
 
-// An edge function of a triangle over its area. Exact however it is summed, but for the last product.
-struct Edge {
-  double a, b, c, inverse_area2;
-  QuadD steps;  // from a quad's first lane to all four
-
-  HWY_INLINE void load_from(const TriangleSetup& triangle, int edge) {
-    a = triangle.edge_a[edge];
-    b = triangle.edge_b[edge];
-    c = triangle.edge_c[edge];
-    inverse_area2 = triangle.inverse_area2;
-    steps = QuadD{0, a, b, a + b};
-  }
-  HWY_INLINE void value(double x, double y, QuadD& e) const { e = steps + (a * x + b * y + c); }
-  // λ, not rounded to float yet.
-  HWY_INLINE void at(double x, double y, QuadD& lambda) const {
-    value(x, y, lambda);
-    lambda *= inverse_area2;
-  }
-};
-
-HWY_INLINE void spread(float x, float* lanes) {
-  const QuadF quad = {x, x, x, x};
-  std::memcpy(lanes, &quad, sizeof quad);
-}
-
-struct op_frag_linear {
+// Calls a Body with E_1 and E_2 of all lanes: lanes(e1, e2, triangle, to) for vectors of one triangle's block,
+// quad(e1, e2, triangle, to) for one quad. The edge functions are exact, however their parts are added.
+template <class Body>
+struct FromEdges {
   static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
     const FragmentBatch& batch = *frame->fragments;
-    float* d = reinterpret_cast<float*>(reg(frame, op->dst));
-    const TriangleSetup* triangle = nullptr;
-    Edge edge1 = {}, edge2 = {};
-    for (int quad = 0; quad < kLanes / 4; ++quad, d += 4) {
-      if (batch.triangle[quad] != triangle) {
-        triangle = batch.triangle[quad];
-        edge1.load_from(*triangle, 1);
-        edge2.load_from(*triangle, 2);
-      }
-      QuadD l1, l2;
-      edge1.at(batch.x[quad], batch.y[quad], l1);
-      edge2.at(batch.x[quad], batch.y[quad], l2);
-      store_floats(l1, d);
-      store_floats(l2, d + kLanes);
+    float* const d = reinterpret_cast<float*>(reg(frame, op->dst));
+    if (batch.one_triangle && batch.whole_block) {
+      block(*batch.triangle[0], batch.x[0], batch.y[0], d);
+      return op + 1;
+    }
+    for (int i = 0; i < kLanes / 4; ++i) {
+      const TriangleSetup& t = *batch.triangle[i];
+      const double x0 = batch.x[i], y0 = batch.y[i];
+      const QuadD x = QuadD{0, 1, 0, 1} + x0;
+      const QuadD y = QuadD{0, 0, 1, 1} + y0;
+      const QuadD e1 = x * t.edge_a[1] + (y * t.edge_b[1] + t.edge_c[1]);
+      const QuadD e2 = x * t.edge_a[2] + (y * t.edge_b[2] + t.edge_c[2]);
+      Body::quad(e1, e2, t, d + 4 * i);
     }
     return op + 1;
   }
-};
-
-struct op_frag_depth {
-  static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
-    const FragmentBatch& batch = *frame->fragments;
-    float* d = reinterpret_cast<float*>(reg(frame, op->dst));
-    const TriangleSetup* triangle = nullptr;
-    Edge edge1 = {}, edge2 = {};
-    for (int quad = 0; quad < kLanes / 4; ++quad, d += 4) {
-      if (batch.triangle[quad] != triangle) {
-        triangle = batch.triangle[quad];
-        edge1.load_from(*triangle, 1);
-        edge2.load_from(*triangle, 2);
-      }
-      QuadD e1, e2;
-      edge1.value(batch.x[quad], batch.y[quad], e1);
-      edge2.value(batch.x[quad], batch.y[quad], e2);
-      const QuadD z = (e1 * triangle->depth.k1 + e2 * triangle->depth.k2) + triangle->depth.z0;
-      QuadF depth = __builtin_convertvector(z, QuadF);
-      const QuadF low = QuadF{} + triangle->depth.min;
-      const QuadF high = QuadF{} + triangle->depth.max;
-      depth = depth < low ? low : depth;
-      depth = depth > high ? high : depth;
-      std::memcpy(d, &depth, sizeof depth);
+  static HWY_INLINE void block(const TriangleSetup& t, uint32_t x, uint32_t y, float* d) {
+    const BlockEdge edge1(t.edge_a[1], t.edge_b[1], t.edge_c[1], x, y);
+    const BlockEdge edge2(t.edge_a[2], t.edge_b[2], t.edge_c[2], x, y);
+    for (int i = 0; i < kVectorsPerBatch; ++i) {
+      Body::lanes(edge1.vector(i), edge2.vector(i), t, d + i * kVectorLanes);
     }
-    return op + 1;
   }
 };
+
+// λ1 and λ2, rounded once.
+struct Linear {
+  static HWY_INLINE void lanes(D e1, D e2, const TriangleSetup& t, float* d) {
+    const D inverse_area2 = broadcast(t.inverse_area2);
+    store(to_float(e1 * inverse_area2), d);
+    store(to_float(e2 * inverse_area2), d + kLanes);
+  }
+  static HWY_INLINE void quad(const QuadD& e1, const QuadD& e2, const TriangleSetup& t, float* d) {
+    store_floats(__builtin_convertvector(e1 * t.inverse_area2, QuadF), d);
+    store_floats(__builtin_convertvector(e2 * t.inverse_area2, QuadF), d + kLanes);
+  }
+};
+using op_frag_linear = FromEdges<Linear>;
+
+struct Depth {
+  static HWY_INLINE void lanes(D e1, D e2, const TriangleSetup& t, float* d) { store(depth_at(e1, e2, t.depth), d); }
+  static HWY_INLINE void quad(const QuadD& e1, const QuadD& e2, const TriangleSetup& t, float* d) {
+    const DepthPlane& plane = t.depth;
+    QuadF depth = __builtin_convertvector((e1 * plane.k1 + e2 * plane.k2) + plane.z0, QuadF);
+    const QuadF low = QuadF{} + plane.min;
+    const QuadF high = QuadF{} + plane.max;
+    depth = depth < low ? low : depth;
+    depth = depth > high ? high : depth;
+    store_floats(depth, d);
+  }
+};
+using op_frag_depth = FromEdges<Depth>;
+
+// Quads of one vector, whose numbers come from many triangles.
+constexpr int kQuadsPerVector = kVectorLanes / 4;
 
 struct op_frag_perspective {
   // The interpolated 1/w, and λ_i / w_i over it.
@@ -125,19 +110,15 @@ struct op_frag_perspective {
       }
       return op + 1;
     }
-    alignas(64) float w[3][kLanes];
-    for (int quad = 0; quad < kLanes / 4; ++quad) {
-      for (int corner = 0; corner < 3; ++corner) spread(batch.triangle[quad]->inverse_w[corner], w[corner] + quad * 4);
-    }
     for (int i = 0; i < kLanes; i += kVectorLanes) {
-      vector(load<F>(a + i), load<F>(b + i), load<F>(w[0] + i), load<F>(w[1] + i), load<F>(w[2] + i), d + i);
+      const float* w[kQuadsPerVector];
+      for (int quad = 0; quad < kQuadsPerVector; ++quad) w[quad] = batch.triangle[i / 4 + quad]->inverse_w;
+      vector(load<F>(a + i), load<F>(b + i), spread_to_quads(w, 0), spread_to_quads(w, 1), spread_to_quads(w, 2),
+             d + i);
     }
     return op + 1;
   }
 };
-
-// verify() lets no instruction have more.
-constexpr uint32_t kMostResults = 16;
 
 struct op_interpolate {
   static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
@@ -157,19 +138,15 @@ struct op_interpolate {
       }
       return op + 1;
     }
-    // All coefficients first: what was just stored in small pieces is slow to load in large ones.
-    const uint32_t count = op->c;
-    alignas(64) float planes[3 * kMostResults][kLanes];
-    for (int quad = 0; quad < kLanes / 4; ++quad) {
-      const float* const varyings = batch.triangle[quad]->varyings + op->imm * 3;
-      for (uint32_t k = 0; k < 3 * count; ++k) spread(varyings[k], planes[k] + quad * 4);
-    }
-    for (uint32_t result = 0; result < count; ++result, d += kLanes) {
-      const float* const a0 = planes[3 * result];
-      const float* const d1 = planes[3 * result + 1];
-      const float* const d2 = planes[3 * result + 2];
-      for (int i = 0; i < kLanes; i += kVectorLanes) {
-        store(fma(load<F>(b + i), load<F>(d2 + i), fma(load<F>(a + i), load<F>(d1 + i), load<F>(a0 + i))), d + i);
+    for (int i = 0; i < kLanes; i += kVectorLanes) {
+      const float* planes[kQuadsPerVector];
+      for (int quad = 0; quad < kQuadsPerVector; ++quad) planes[quad] = batch.triangle[i / 4 + quad]->varyings;
+      const F l1 = load<F>(a + i);
+      const F l2 = load<F>(b + i);
+      for (uint32_t result = 0; result < op->c; ++result) {
+        const uint32_t k = (op->imm + result) * 3;
+        const F sum = fma(l1, spread_to_quads(planes, k + 1), spread_to_quads(planes, k));
+        store(fma(l2, spread_to_quads(planes, k + 2), sum), d + result * kBatchLanes + i);
       }
     }
     return op + 1;
@@ -179,39 +156,38 @@ struct op_interpolate {
 struct op_interpolate_flat {
   static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
     const FragmentBatch& batch = *frame->fragments;
-    float* d = reinterpret_cast<float*>(reg(frame, op->dst));
-    for (uint32_t result = 0; result < op->c; ++result, d += kLanes) {
-      const uint32_t index = (op->imm + result) * 3;
-      if (batch.one_triangle) {
-        const F value = broadcast(batch.triangle[0]->varyings[index]);
-        for (int i = 0; i < kLanes; i += kVectorLanes) store(value, d + i);
-        continue;
+    float* const d = reinterpret_cast<float*>(reg(frame, op->dst));
+    for (int i = 0; i < kLanes; i += kVectorLanes) {
+      const float* planes[kQuadsPerVector];
+      for (int quad = 0; quad < kQuadsPerVector; ++quad) planes[quad] = batch.triangle[i / 4 + quad]->varyings;
+      for (uint32_t result = 0; result < op->c; ++result) {
+        const uint32_t k = (op->imm + result) * 3;
+        const F value = batch.one_triangle ? broadcast(planes[0][k]) : spread_to_quads(planes, k);
+        store(value, d + result * kBatchLanes + i);
       }
-      for (int quad = 0; quad < kLanes / 4; ++quad) spread(batch.triangle[quad]->varyings[index], d + quad * 4);
     }
     return op + 1;
   }
 };
 
-// VkCompareOp of the fragment's depth a and the stored one b.
-M compare(uint32_t how, F a, F b) {
+M compare(uint32_t how, F z, F stored) {
   switch (how) {
-    case 0:  // VK_COMPARE_OP_NEVER
-      return no_lanes();
-    case 1:  // VK_COMPARE_OP_LESS
-      return lt(a, b);
-    case 2:  // VK_COMPARE_OP_EQUAL
-      return eq(a, b);
-    case 3:  // VK_COMPARE_OP_LESS_OR_EQUAL
-      return le(a, b);
-    case 4:  // VK_COMPARE_OP_GREATER
-      return gt(a, b);
-    case 5:  // VK_COMPARE_OP_NOT_EQUAL
-      return ne(a, b);
-    case 6:  // VK_COMPARE_OP_GREATER_OR_EQUAL
-      return ge(a, b);
-    default:  // VK_COMPARE_OP_ALWAYS
-      return all_lanes();
+    case 0:
+      return compare_depth<0>(z, stored);
+    case 1:
+      return compare_depth<1>(z, stored);
+    case 2:
+      return compare_depth<2>(z, stored);
+    case 3:
+      return compare_depth<3>(z, stored);
+    case 4:
+      return compare_depth<4>(z, stored);
+    case 5:
+      return compare_depth<5>(z, stored);
+    case 6:
+      return compare_depth<6>(z, stored);
+    default:
+      return compare_depth<7>(z, stored);
   }
 }
 

@@ -18,7 +18,9 @@ using Lanes = std::array<uint32_t, kBatchLanes>;
 inline float f(uint32_t bits) { return std::bit_cast<float>(bits); }
 inline uint32_t u(float value) { return std::bit_cast<uint32_t>(value); }
 
-// Four triangles in turn, or one; quads at random even places.
+// Whose quads a batch has: of four triangles in turn or of one, at random even places or in one block.
+enum class Quads { many_triangles, one_triangle, block, block_of_many };
+
 struct FragmentTest {
   TestFrame test;
   FragmentBatch batch = {};
@@ -29,7 +31,8 @@ struct FragmentTest {
   const TexelFunctions* colors[1] = {};
   uint64_t counter = 0;
 
-  FragmentTest(SimdTarget target, bool one_triangle) : test(target) {
+  FragmentTest(SimdTarget target, Quads quads) : test(target) {
+    const bool one_triangle = quads == Quads::one_triangle || quads == Quads::block;
     std::mt19937 random(7);
     std::uniform_real_distribution<float> reals(-2, 2);
     for (TriangleSetup& t : triangles) {
@@ -56,6 +59,7 @@ struct FragmentTest {
       batch.y[q] = static_cast<uint16_t>(random() % 4096 * 2);
       batch.quad_in_tile[q] = static_cast<uint16_t>(q * 61 % 1024);
     }
+    if (quads == Quads::block || quads == Quads::block_of_many) use_block(1232, 4048, 37);
     batch.one_triangle = one_triangle;
     batch.planes.depth = reinterpret_cast<std::byte*>(depth);
     batch.planes.color[0] = reinterpret_cast<std::byte*>(color);
@@ -67,6 +71,16 @@ struct FragmentTest {
     colors[0] = &texel_functions(*find_format(VK_FORMAT_R8G8B8A8_UNORM), target);
     frame.colors = colors;
     frame.sampling = &sampling_functions(target);
+  }
+
+  // Block `number` of the tile, its first pixel at (x, y).
+  void use_block(uint32_t first_x, uint32_t first_y, uint32_t number) {
+    for (uint32_t q = 0; q < kBatchQuads; ++q) {
+      batch.x[q] = static_cast<uint16_t>(first_x + q % 4 * 2);
+      batch.y[q] = static_cast<uint16_t>(first_y + q / 4 * 2);
+      batch.quad_in_tile[q] = static_cast<uint16_t>(number * kBatchQuads + q);
+    }
+    batch.whole_block = true;
   }
 
   const TriangleSetup& triangle(uint32_t lane) const { return *batch.triangle[lane / 4]; }

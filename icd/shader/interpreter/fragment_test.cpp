@@ -14,7 +14,8 @@ namespace {
 template <class Check>
 void for_all(Check&& check) {
   for (SimdTarget target : supported_simd_targets()) {
-    for (bool one_triangle : {false, true}) check(target, one_triangle);
+    for (Quads quads : {Quads::many_triangles, Quads::one_triangle, Quads::block, Quads::block_of_many})
+      check(target, quads);
   }
 }
 
@@ -23,8 +24,8 @@ Op operands(uint16_t dst, uint16_t a = 0, uint16_t b = 0, uint16_t c = 0, uint32
 }
 
 TEST(Op, frag_linear) {
-  for_all([](SimdTarget target, bool one) {
-    FragmentTest t(target, one);
+  for_all([](SimdTarget target, Quads quads) {
+    FragmentTest t(target, quads);
     const Lanes l1 = t.run(Opcode::frag_linear, operands(4));
     const Lanes l2 = t.result_of(5);
     for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
@@ -35,8 +36,8 @@ TEST(Op, frag_linear) {
 }
 
 TEST(Op, frag_depth) {
-  for_all([](SimdTarget target, bool one) {
-    FragmentTest t(target, one);
+  for_all([](SimdTarget target, Quads quads) {
+    FragmentTest t(target, quads);
     const Lanes got = t.run(Opcode::frag_depth, operands(4));
     for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
       const DepthPlane& plane = t.triangle(lane).depth;
@@ -56,8 +57,8 @@ Lanes fractions(uint32_t seed) {
 }
 
 TEST(Op, frag_perspective) {
-  for_all([](SimdTarget target, bool one) {
-    FragmentTest t(target, one);
+  for_all([](SimdTarget target, Quads quads) {
+    FragmentTest t(target, quads);
     const Lanes a = fractions(1), b = fractions(2);
     t.test.write(0, a);
     t.test.write(1, b);
@@ -77,8 +78,8 @@ TEST(Op, frag_perspective) {
 }
 
 TEST(Op, interpolate) {
-  for_all([](SimdTarget target, bool one) {
-    FragmentTest t(target, one);
+  for_all([](SimdTarget target, Quads quads) {
+    FragmentTest t(target, quads);
     const Lanes a = fractions(1), b = fractions(2);
     t.test.write(0, a);
     t.test.write(1, b);
@@ -94,8 +95,8 @@ TEST(Op, interpolate) {
 }
 
 TEST(Op, interpolate_flat) {
-  for_all([](SimdTarget target, bool one) {
-    FragmentTest t(target, one);
+  for_all([](SimdTarget target, Quads quads) {
+    FragmentTest t(target, quads);
     for (auto& v : t.varyings) v[3] = f(0x7F812345);  // any bits: a signalling NaN stays one
     t.run(Opcode::interpolate_flat, operands(4, 0, 0, 2, 1));
     const Lanes first = t.result_of(4), second = t.result_of(5);
@@ -114,8 +115,8 @@ bool passes(uint32_t compare, float a, float b) {
 TEST(Op, depth_test) {
   constexpr uint64_t kCovered = 0xFFF0700F1234FFFF;
   for (SimdTarget target : supported_simd_targets()) {
-    for (uint32_t flags = 0; flags < 16; ++flags) {
-      FragmentTest t(target, true);
+    for (uint32_t flags = 0; flags < 32; ++flags) {
+      FragmentTest t(target, flags < 16 ? Quads::one_triangle : Quads::block);
       std::mt19937 random(flags);
       for (float& depth : t.depth) depth = static_cast<float>(random() % 4) * 0.25f;
       std::array<float, 4096> expected;
@@ -132,14 +133,14 @@ TEST(Op, depth_test) {
         // A NaN passes where the test is ALWAYS or NOT_EQUAL.
         if ((flags & 8) != 0) expected[t.texel(lane)] = f(z[lane]);
       }
-      t.test.add(Opcode::depth_test, kStore, operands(0, 0, 0, 0, flags, 1));
+      t.test.add(Opcode::depth_test, kStore, operands(0, 0, 0, 0, flags & 15, 1));
       t.test.run();
       EXPECT_EQ(t.test.frame().write, write) << flags;
       EXPECT_EQ(t.test.frame().exec, exec) << flags;
       for (size_t i = 0; i < 4096; ++i) EXPECT_EQ(u(t.depth[i]), u(expected[i])) << flags << ' ' << i;
     }
     // Nothing left: jumps.
-    FragmentTest t(target, true);
+    FragmentTest t(target, Quads::one_triangle);
     t.test.write(4, fractions(1));
     t.test.write(5, fractions(2));
     t.test.add(Opcode::depth_test, kStore, operands(0, 0, 0, 0, VK_COMPARE_OP_NEVER, 2));
@@ -150,8 +151,8 @@ TEST(Op, depth_test) {
 }
 
 TEST(Op, count_samples) {
-  for_all([](SimdTarget target, bool one) {
-    FragmentTest t(target, one);
+  for_all([](SimdTarget target, Quads quads) {
+    FragmentTest t(target, quads);
     t.counter = 1000;
     t.test.frame().write = 0xF0F00000000000FF;
     t.test.add(Opcode::count_samples, kStore, Op{});
@@ -165,7 +166,7 @@ TEST(Op, count_samples) {
 
 TEST(Op, load_color) {
   for (SimdTarget target : supported_simd_targets()) {
-    FragmentTest t(target, true);
+    FragmentTest t(target, Quads::one_triangle);
     for (uint32_t i = 0; i < 4096; ++i) t.color[i] = i * 0x01030507;
     t.run(Opcode::load_color, operands(4));
     for (uint32_t c = 0; c < 4; ++c) {
@@ -180,7 +181,7 @@ TEST(Op, load_color) {
 TEST(Op, store_color) {
   constexpr uint64_t kWrite = 0xFF0F1234567890AB;
   for (SimdTarget target : supported_simd_targets()) {
-    FragmentTest t(target, true);
+    FragmentTest t(target, Quads::one_triangle);
     std::fill(std::begin(t.color), std::end(t.color), 0x11223344u);
     const uint16_t list[] = {kNoOperand, 0, kNoOperand, 1};
     t.test.frame().lists = list;
@@ -230,15 +231,11 @@ float some_color(std::mt19937& random) {
 TEST(Op, blend_color) {
   const uint16_t list[] = {0, 1, 2, 3};
   for (SimdTarget target : supported_simd_targets()) {
-    FragmentTest t(target, true);
-    t.test.frame().lists = list;
     std::mt19937 random(1);
     for (uint32_t word = 15; word < 1u << 16; word += 16) {
       if (!is_blend_word(word) || (target == SimdTarget::kBaseline && word % 112 != 15)) continue;
-      const bool block = word % 32 == 15;
-      t.batch.whole_block = block;
-      for (uint32_t q = 0; q < kBatchQuads; ++q)
-        t.batch.quad_in_tile[q] = static_cast<uint16_t>(block ? 5 * 16 + q : q * 61 % 1024);
+      FragmentTest t(target, word % 32 == 15 ? Quads::block : Quads::one_triangle);
+      t.test.frame().lists = list;
       for (uint32_t& texel : t.color) texel = static_cast<uint32_t>(random());
       uint32_t before[4096];
       std::copy(std::begin(t.color), std::end(t.color), before);
@@ -271,8 +268,8 @@ TEST(Op, blend_color) {
 }
 
 TEST(Op, builtin) {
-  for_all([](SimdTarget target, bool one) {
-    FragmentTest t(target, one);
+  for_all([](SimdTarget target, Quads quads) {
+    FragmentTest t(target, quads);
     VertexBatch vertices = {};
     for (uint32_t i = 0; i < kBatchLanes; ++i) vertices.vertex_index[i] = 3 * i, vertices.instance_index[i] = 5 * i;
     ComputeBatch compute = {{2, 3, 4}, {5, 6, 7}, 64};
@@ -407,7 +404,7 @@ struct ImageTest {
   ResourceRef ref = {0, 0, 3, -1};
   uint16_t list[5] = {0, kNoOperand, 1, 2, kNoOperand};
 
-  explicit ImageTest(SimdTarget target) : t(target, true) {
+  explicit ImageTest(SimdTarget target) : t(target, Quads::one_triangle) {
     for (int i = 0; i < 2; ++i) {
       views[i].format = find_format(VK_FORMAT_R8G8B8A8_UNORM);
       views[i].level_count = views[i].layer_count = 1;

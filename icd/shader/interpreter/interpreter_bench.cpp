@@ -194,8 +194,8 @@ void chain_interpreter(benchmark::State& state, SimdTarget target, uint32_t accu
 }
 
 // One op, 100 times in a row.
-void one_op(benchmark::State& state, SimdTarget target, Opcode op, Op operands, bool one_triangle) {
-  FragmentTest fixture(target, one_triangle);
+void one_op(benchmark::State& state, SimdTarget target, Opcode op, Op operands, Quads quads) {
+  FragmentTest fixture(target, quads);
   VertexBatch vertices = {};
   alignas(64) static float outputs[64 * 64];
   alignas(64) static float data[64 * 16];
@@ -273,10 +273,10 @@ void assemble_program(benchmark::State& state) {
 }
 BENCHMARK(assemble_program)->Arg(200)->Arg(2000);
 
-void add_op(SimdTarget target, const std::string& name, Opcode op, Op operands, bool one_triangle = true) {
+void add_op(SimdTarget target, const std::string& name, Opcode op, Op operands, Quads quads = Quads::one_triangle) {
   const std::string full = std::string("op/") + simd_target_name(target) + '/' + name;
   benchmark::RegisterBenchmark(full.c_str(),
-                               [=](benchmark::State& state) { one_op(state, target, op, operands, one_triangle); });
+                               [=](benchmark::State& state) { one_op(state, target, op, operands, quads); });
 }
 
 void add_all() {
@@ -309,8 +309,11 @@ void add_all() {
     add_op(target, "sample_2d bilinear", Opcode::sample_2d, {nullptr, 4, 0, 0, 0, 0, 0});
     add_op(target, "sample_2d_lod bilinear", Opcode::sample_2d_lod, {nullptr, 4, 0, 0, 0, 0, 0});
     add_op(target, "fetch_2d", Opcode::fetch_2d, {nullptr, 4, 0, 0, 0, 0, 0});
-    for (bool one : {true, false}) {
-      const std::string suffix = one ? " (one triangle)" : " (many triangles)";
+    constexpr std::pair<Quads, const char*> kQuads[] = {{Quads::one_triangle, " (one triangle)"},
+                                                        {Quads::many_triangles, " (many triangles)"},
+                                                        {Quads::block, " (block)"}};
+    for (const auto& [one, suffix_text] : kQuads) {
+      const std::string suffix = suffix_text;
       add_op(target, "frag_linear" + suffix, Opcode::frag_linear, {nullptr, 4, 0, 0, 0, 0, 0}, one);
       add_op(target, "frag_depth" + suffix, Opcode::frag_depth, {nullptr, 4, 0, 0, 0, 0, 0}, one);
       add_op(target, "frag_perspective" + suffix, Opcode::frag_perspective, {nullptr, 4, 0, 1, 0, 0, 0}, one);
@@ -319,10 +322,17 @@ void add_all() {
     }
     add_op(target, "builtin frag_coord_x", Opcode::builtin,
            {nullptr, 4, 0, 0, 0, static_cast<uint32_t>(BuiltIn::frag_coord_x), 0});
-    add_op(target, "depth_test always", Opcode::depth_test, {nullptr, 0, 0, 0, 0, VK_COMPARE_OP_ALWAYS, 1});
-    add_op(target, "depth_test and write", Opcode::depth_test, {nullptr, 0, 0, 0, 0, VK_COMPARE_OP_ALWAYS | 8, 1});
-    add_op(target, "load_color", Opcode::load_color, {nullptr, 4, 0, 0, 0, 0, 0});
-    add_op(target, "store_color", Opcode::store_color, {nullptr, 0, 5, 0, 0, 0, 15});
+    for (const auto& [quads, suffix] : {std::pair{Quads::one_triangle, ""}, {Quads::block, " (block)"}}) {
+      const std::string end = suffix;
+      add_op(target, "depth_test always" + end, Opcode::depth_test, {nullptr, 0, 0, 0, 0, VK_COMPARE_OP_ALWAYS, 1},
+             quads);
+      add_op(target, "depth_test and write" + end, Opcode::depth_test,
+             {nullptr, 0, 0, 0, 0, VK_COMPARE_OP_ALWAYS | 8, 1}, quads);
+      add_op(target, "load_color" + end, Opcode::load_color, {nullptr, 4, 0, 0, 0, 0, 0}, quads);
+      add_op(target, "store_color" + end, Opcode::store_color, {nullptr, 0, 5, 0, 0, 0, 15}, quads);
+      // Source alpha over.
+      add_op(target, "blend_color" + end, Opcode::blend_color, {nullptr, 0, 5, 0, 0, 0, 15 | 0xDE0}, quads);
+    }
   }
 }
 
