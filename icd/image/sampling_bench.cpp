@@ -87,18 +87,47 @@ void blend(benchmark::State& state, bool whole_block) {
   }
 }
 
-void move_tile(benchmark::State& state) {
-  const auto texel_size = static_cast<uint32_t>(state.range(0));
-  const uint64_t pitch = uint64_t{1280} * texel_size;
-  std::vector<std::byte> image(pitch * 720);
-  std::vector<std::byte> plane(kTileTexels * texel_size);
-  uint32_t tile = 0;
-  for (auto _ : state) {
-    const uint32_t x = tile % 20 * 64, y = tile / 20 % 11 * 64;
-    store_tile(plane.data(), texel_size, {x, y, x + 64, y + 64}, image.data(), pitch);
-    ++tile;
+// Tiles of an image of 1280x704, one after the other.
+struct TileBench {
+  uint32_t texel_size, number = 0;
+  uint64_t pitch;
+  std::vector<std::byte> image, plane;
+  explicit TileBench(benchmark::State& state)
+      : texel_size(static_cast<uint32_t>(state.range(0))),
+        pitch(uint64_t{1280} * texel_size),
+        image(pitch * 704),
+        plane(size_t{kTileTexels} * texel_size) {}
+  TileArea next() {
+    const uint32_t x = number % 20 * 64, y = number / 20 % 11 * 64;
+    ++number;
+    return {x, y, x + 64, y + 64};
   }
-  state.SetBytesProcessed(state.iterations() * kTileTexels * texel_size);
+  void report(benchmark::State& state) const {
+    state.SetBytesProcessed(state.iterations() * static_cast<int64_t>(plane.size()));
+  }
+};
+
+void store_tiles(benchmark::State& state) {
+  TileBench tiles(state);
+  for (auto _ : state) store_tile(tiles.plane.data(), tiles.texel_size, tiles.next(), tiles.image.data(), tiles.pitch);
+  tiles.report(state);
+}
+void load_tiles(benchmark::State& state) {
+  TileBench tiles(state);
+  for (auto _ : state) load_tile(tiles.image.data(), tiles.pitch, tiles.texel_size, tiles.next(), tiles.plane.data());
+  tiles.report(state);
+}
+
+constexpr PackedTexel kSomeTexel = {std::byte{1}, std::byte{2}, std::byte{3}};
+void clear_tiles(benchmark::State& state) {
+  TileBench tiles(state);
+  for (auto _ : state) fill_tile(tiles.plane.data(), tiles.texel_size, kSomeTexel);
+  tiles.report(state);
+}
+void clear_image_tiles(benchmark::State& state) {
+  TileBench tiles(state);
+  for (auto _ : state) fill_image_area(tiles.image.data(), tiles.pitch, tiles.texel_size, tiles.next(), kSomeTexel);
+  tiles.report(state);
 }
 
 constexpr auto kRepeat = VK_SAMPLER_ADDRESS_MODE_REPEAT;
@@ -118,7 +147,10 @@ BENCHMARK_CAPTURE(store_and_load, rgba32f_block, VK_FORMAT_R32G32B32A32_SFLOAT, 
 BENCHMARK_CAPTURE(store_and_load, depth_block, VK_FORMAT_D32_SFLOAT, true)->DenseRange(0, 2);
 BENCHMARK_CAPTURE(blend, quads, false)->DenseRange(0, 2);
 BENCHMARK_CAPTURE(blend, block, true)->DenseRange(0, 2);
-BENCHMARK(move_tile)->Arg(4)->Arg(16);
+BENCHMARK(store_tiles)->Arg(4)->Arg(16);
+BENCHMARK(load_tiles)->Arg(4)->Arg(16);
+BENCHMARK(clear_tiles)->Arg(4)->Arg(16);
+BENCHMARK(clear_image_tiles)->Arg(4)->Arg(16);
 
 }  // namespace
 }  // namespace lapilli
