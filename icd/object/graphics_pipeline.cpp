@@ -199,6 +199,7 @@ Result<void> build(GraphicsPart& part, const Info& info) {
   if (Result<void> found = find_stages(stages, info, part.rasterizer_discard); !found) return found;
 
   GraphicsState state;
+  state.raster_tests_depth = true;
   Result<Targets> targets = find_targets(state, info, part.rasterizer_discard);
   if (!targets) return targets.error();
   std::copy(targets->formats.begin(), targets->formats.end(), part.color_formats.begin());

@@ -11,61 +11,47 @@ namespace {
 
 constexpr int32_t kTileSpan = kTileSize - 1;
 constexpr int32_t kBlockSpan = kBlockSize - 1;
+constexpr int32_t kBlock = static_cast<int32_t>(kBlockSize);
 
-struct LanePosition {
-  std::array<int32_t, 64> x{}, y{};
-};
-
-// Position in its block of the pixel of each bit of BlockCoverage::pixels.
-constexpr LanePosition kLanePosition = [] {
-  LanePosition position;
-  for (uint32_t lane = 0; lane < 64; ++lane) {
-    const uint32_t quad = lane / 4;
-    position.x[lane] = static_cast<int32_t>(quad % 4 * 2 + (lane & 1));
-    position.y[lane] = static_cast<int32_t>(quad / 4 * 2 + (lane >> 1 & 1));
-  }
-  return position;
-}();
-
-// [i]: the pixels of a block with x (or y) below i.
+// [i]: the bits with a coordinate below i.
 using PrefixMasks = std::array<uint64_t, kBlockSize + 1>;
-constexpr PrefixMasks prefix_masks(const std::array<int32_t, 64>& coordinate) {
+constexpr PrefixMasks prefix_masks(uint32_t (*coordinate)(uint32_t)) {
   PrefixMasks masks{};
-  for (int32_t i = 0; i <= static_cast<int32_t>(kBlockSize); ++i) {
-    for (uint32_t lane = 0; lane < 64; ++lane) {
-      if (coordinate[lane] < i) masks[static_cast<size_t>(i)] |= uint64_t{1} << lane;
+  for (uint32_t i = 0; i <= kBlockSize; ++i) {
+    for (uint32_t bit = 0; bit < 64; ++bit) {
+      if (coordinate(bit) < i) masks[i] |= uint64_t{1} << bit;
     }
   }
   return masks;
 }
-constexpr PrefixMasks kColumnsBelow = prefix_masks(kLanePosition.x);
-constexpr PrefixMasks kRowsBelow = prefix_masks(kLanePosition.y);
+constexpr PrefixMasks kColumnsBelow = prefix_masks(column_of_bit);
+constexpr PrefixMasks kRowsBelow = prefix_masks(row_of_bit);
 
-// Pixels of the block at (x, y) that lie in `rect`; both in pixels from the tile's origin.
-uint64_t inside_rect(const PixelRect& rect, int32_t x, int32_t y) {
-  const auto clamp = [](int32_t v) { return static_cast<size_t>(std::clamp(v, 0, static_cast<int32_t>(kBlockSize))); };
-  return kColumnsBelow[clamp(rect.x1 - x)] & ~kColumnsBelow[clamp(rect.x0 - x)] & kRowsBelow[clamp(rect.y1 - y)] &
-         ~kRowsBelow[clamp(rect.y0 - y)];
+// Bits in [x0, x1) x [y0, y1).
+uint64_t bits_in(int32_t x0, int32_t y0, int32_t x1, int32_t y1) {
+  const auto clamp = [](int32_t v) { return static_cast<size_t>(std::clamp(v, 0, kBlock)); };
+  return kColumnsBelow[clamp(x1)] & ~kColumnsBelow[clamp(x0)] & kRowsBelow[clamp(y1)] & ~kRowsBelow[clamp(y0)];
 }
 
-// An edge that crosses the tile, relative to the tile's origin. Since it crosses, all its values in the tile are at
-// most kTileSpan * (|a| + |b|) < 2^31 in magnitude.
-struct TileEdge {
-  int32_t a, b, c;
-  int32_t highest, lowest;  // in a block, relative to the value at its origin
-};
+}  // namespace
 
-// False: the tile is outside. Edges that the tile is inside of are left out.
-bool edges_in_tile(const CoverageEdges& edges, int32_t tile_x, int32_t tile_y, TileEdge (&crossing)[3],
-                   uint32_t& count) {
-  count = 0;
+uint64_t pixels_in_rect(const PixelRect& rect, uint32_t block) {
+  const int32_t x = static_cast<int32_t>(column_of_bit(block)) * kBlock;
+  const int32_t y = static_cast<int32_t>(row_of_bit(block)) * kBlock;
+  return bits_in(rect.x0 - x, rect.y0 - y, rect.x1 - x, rect.y1 - y);
+}
+
+bool TileCoverage::begin(const CoverageEdges& edges, int32_t tile_x, int32_t tile_y, const PixelRect& bounds) {
+  if (bounds.empty()) return false;
+  bounds_ = bounds;
+  count_ = 0;
   for (int i = 0; i < 3; ++i) {
     const int64_t a = edges.a[i];
     const int64_t b = edges.b[i];
     const int64_t c = edges.c[i] + a * tile_x + b * tile_y;
     if (c + kTileSpan * (std::max<int64_t>(a, 0) + std::max<int64_t>(b, 0)) < 0) return false;
     if (c + kTileSpan * (std::min<int64_t>(a, 0) + std::min<int64_t>(b, 0)) >= 0) continue;
-    TileEdge& edge = crossing[count++];
+    Edge& edge = edges_[count_++];
     edge.a = edges.a[i];
     edge.b = edges.b[i];
     edge.c = static_cast<int32_t>(c);
@@ -75,37 +61,31 @@ bool edges_in_tile(const CoverageEdges& edges, int32_t tile_x, int32_t tile_y, T
   return true;
 }
 
-}  // namespace
-
-uint32_t cover_tile(const CoverageEdges& triangle, const PixelRect& triangle_bounds, int32_t tile_x, int32_t tile_y,
-                    BlockCoverage (&blocks)[kBlocksPerTile * kBlocksPerTile]) {
-  TileEdge edges[3];
-  uint32_t edge_count = 0;
-  if (!edges_in_tile(triangle, tile_x, tile_y, edges, edge_count)) return 0;
-
-  constexpr int32_t kSize = static_cast<int32_t>(kTileSize);
-  const PixelRect bounds = intersect({triangle_bounds.x0 - tile_x, triangle_bounds.y0 - tile_y,
-                                      triangle_bounds.x1 - tile_x, triangle_bounds.y1 - tile_y},
-                                     {0, 0, kSize, kSize});
-  if (bounds.empty()) return 0;
-
-  constexpr int32_t kBlock = static_cast<int32_t>(kBlockSize);
-  uint32_t count = 0;
-  for (int32_t y = bounds.y0 & -kBlock; y < bounds.y1; y += kBlock) {
-    for (int32_t x = bounds.x0 & -kBlock; x < bounds.x1; x += kBlock) {
-      uint64_t pixels = inside_rect(bounds, x, y);
-      for (uint32_t i = 0; i < edge_count; ++i) {
-        const int32_t at_origin = edges[i].c + edges[i].a * x + edges[i].b * y;
-        if (at_origin + edges[i].highest < 0) {
-          pixels = 0;
-          break;
-        }
-        if (at_origin + edges[i].lowest < 0) pixels &= ~negative_in_block(at_origin, edges[i].a, edges[i].b);
-      }
-      if (pixels != 0) blocks[count++] = {static_cast<uint8_t>(x / kBlock), static_cast<uint8_t>(y / kBlock), pixels};
-    }
+TileCoverage::Blocks TileCoverage::blocks() const {
+  Blocks blocks;
+  blocks.touched = bits_in(bounds_.x0 / kBlock, bounds_.y0 / kBlock, (bounds_.x1 + kBlockSpan) / kBlock,
+                           (bounds_.y1 + kBlockSpan) / kBlock);
+  blocks.inside = bits_in((bounds_.x0 + kBlockSpan) / kBlock, (bounds_.y0 + kBlockSpan) / kBlock, bounds_.x1 / kBlock,
+                          bounds_.y1 / kBlock);
+  for (uint32_t i = 0; i < count_; ++i) {
+    const Edge& edge = edges_[i];
+    blocks.touched &= ~negative_in_block(edge.c + edge.highest, edge.a * kBlock, edge.b * kBlock);
+    blocks.inside &= ~negative_in_block(edge.c + edge.lowest, edge.a * kBlock, edge.b * kBlock);
   }
-  return count;
+  blocks.inside &= blocks.touched;
+  return blocks;
+}
+
+uint64_t TileCoverage::pixels(uint32_t block) const {
+  const int32_t x = static_cast<int32_t>(column_of_bit(block)) * kBlock;
+  const int32_t y = static_cast<int32_t>(row_of_bit(block)) * kBlock;
+  uint64_t pixels = bits_in(bounds_.x0 - x, bounds_.y0 - y, bounds_.x1 - x, bounds_.y1 - y);
+  for (uint32_t i = 0; i < count_; ++i) {
+    const Edge& edge = edges_[i];
+    const int32_t at_first = edge.c + edge.a * x + edge.b * y;
+    if (at_first + edge.lowest < 0) pixels &= ~negative_in_block(at_first, edge.a, edge.b);
+  }
+  return pixels;
 }
 
 }  // namespace lapilli

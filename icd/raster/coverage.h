@@ -8,15 +8,46 @@
 
 namespace lapilli {
 
-// Coverage of one 8x8 block. Bit 4*q + s: quad q = (y/2)*4 + x/2 of the block, s = (y&1)*2 + (x&1).
-struct BlockCoverage {
-  uint8_t block_x, block_y;  // in blocks, from the tile's origin
-  uint64_t pixels;           // never 0
-};
+// Sets of a block's pixels and of a tile's blocks are 64-bit words with the same order: bit 4*q + s is
+// x = 2*(q%4) + (s&1), y = 2*(q/4) + (s>>1). For pixels it is the order of the lanes.
+constexpr uint32_t column_of_bit(uint32_t bit) { return (bit >> 2 & 3) * 2 + (bit & 1); }
+constexpr uint32_t row_of_bit(uint32_t bit) { return (bit >> 4) * 2 + (bit >> 1 & 1); }
+constexpr uint32_t bit_of(uint32_t column, uint32_t row) {
+  return ((row / 2) * 4 + column / 2) * 4 + (row & 1) * 2 + (column & 1);
+}
+// The first texel of a block in a plane (image/tile.h), by its bit.
+constexpr uint32_t first_texel_of_block(uint32_t bit) {
+  return (row_of_bit(bit) * kBlocksPerTile + column_of_bit(bit)) * kBlockTexels;
+}
+constexpr uint64_t kAllBits = ~uint64_t{0};
 
-// Writes the blocks that a triangle touches within `bounds`, row by row, and returns how many. (tile_x, tile_y): the
-// tile's first pixel.
-uint32_t cover_tile(const CoverageEdges& edges, const PixelRect& bounds, int32_t tile_x, int32_t tile_y,
-                    BlockCoverage (&blocks)[kBlocksPerTile * kBlocksPerTile]);
+// Pixels of the block with this bit that lie in `rect`, which is in pixels from the tile's origin.
+uint64_t pixels_in_rect(const PixelRect& rect, uint32_t block);
+
+// What is left of a triangle's edges in one tile. Values of an edge that crosses the tile are at most
+// 63 * (|a| + |b|) < 2^31 in magnitude there.
+class TileCoverage {
+ public:
+  // (tile_x, tile_y): the tile's first pixel; `bounds`: of the triangle, in pixels from there, inside the tile.
+  // False: nothing is covered.
+  bool begin(const CoverageEdges& edges, int32_t tile_x, int32_t tile_y, const PixelRect& bounds);
+
+  struct Blocks {
+    uint64_t touched;  // may have a covered pixel
+    uint64_t inside;   // all pixels covered; a part of `touched`
+  };
+  Blocks blocks() const;
+  // The covered pixels of a block.
+  uint64_t pixels(uint32_t block) const;
+
+ private:
+  struct Edge {
+    int32_t a, b, c;          // relative to the tile's origin
+    int32_t highest, lowest;  // in a block, relative to the value at its first pixel
+  };
+  Edge edges_[3];  // those that cross the tile
+  uint32_t count_ = 0;
+  PixelRect bounds_;
+};
 
 }  // namespace lapilli

@@ -3,9 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <random>
-#include <set>
 
 namespace lapilli {
 namespace {
@@ -51,27 +49,29 @@ void expect_equal(Point p, Point q, Point r, const PixelRect& bounds, int32_t ti
   if (area == 0) return;
   if (area < 0) std::swap(q, r);
   const Point v[3] = {p, q, r};
-  BlockCoverage blocks[kBlocksPerTile * kBlocksPerTile];
-  const uint32_t count = cover_tile(edges_of(p, q, r), bounds, tile_x, tile_y, blocks);
-  std::set<std::pair<int32_t, int32_t>> got;
-  for (uint32_t i = 0; i < count; ++i) {
-    EXPECT_NE(blocks[i].pixels, 0u);
-    for (uint32_t lane = 0; lane < 64; ++lane) {
-      if ((blocks[i].pixels >> lane & 1) == 0) continue;
-      const int32_t x = static_cast<int32_t>(blocks[i].block_x * kBlockSize + lane / 4 % 4 * 2 + (lane & 1));
-      const int32_t y = static_cast<int32_t>(blocks[i].block_y * kBlockSize + lane / 16 * 2 + (lane >> 1 & 1));
-      EXPECT_TRUE(got.insert({tile_x + x, tile_y + y}).second) << "pixel reported twice";
+  const PixelRect in_tile =
+      intersect({bounds.x0 - tile_x, bounds.y0 - tile_y, bounds.x1 - tile_x, bounds.y1 - tile_y}, {0, 0, 64, 64});
+  TileCoverage coverage;
+  TileCoverage::Blocks blocks{};
+  const bool touched = coverage.begin(edges_of(p, q, r), tile_x, tile_y, in_tile);
+  if (touched) blocks = coverage.blocks();
+  for (uint32_t block = 0; block < 64; ++block) {
+    const int32_t x = tile_x + static_cast<int32_t>(column_of_bit(block)) * 8;
+    const int32_t y = tile_y + static_cast<int32_t>(row_of_bit(block)) * 8;
+    uint64_t expected = 0;
+    for (uint32_t bit = 0; bit < 64; ++bit) {
+      const int32_t px = x + static_cast<int32_t>(column_of_bit(bit));
+      const int32_t py = y + static_cast<int32_t>(row_of_bit(bit));
+      const bool in_bounds = px >= bounds.x0 && px < bounds.x1 && py >= bounds.y0 && py < bounds.y1;
+      expected |= static_cast<uint64_t>(in_bounds && covers(v, px, py)) << bit;
     }
-  }
-  size_t expected = 0;
-  for (int32_t y = std::max(bounds.y0, tile_y); y < std::min(bounds.y1, tile_y + 64); ++y) {
-    for (int32_t x = std::max(bounds.x0, tile_x); x < std::min(bounds.x1, tile_x + 64); ++x) {
-      if (!covers(v, x, y)) continue;
-      ++expected;
-      EXPECT_TRUE(got.contains({x, y})) << x << ", " << y;
+    if (touched) {
+      ASSERT_EQ(coverage.pixels(block), expected) << x << ", " << y;
     }
+    const bool may_be_touched = (blocks.touched >> block & 1) != 0;
+    ASSERT_TRUE(may_be_touched || expected == 0) << x << ", " << y;
+    ASSERT_EQ((blocks.inside >> block & 1) != 0, expected == kAllBits) << x << ", " << y;
   }
-  EXPECT_EQ(got.size(), expected);
 }
 
 constexpr PixelRect kEverything = {0, 0, 1 << 14, 1 << 14};

@@ -1,4 +1,4 @@
-// A batch is full at 16 quads; it is run early if a quad comes again, or the draw or tile changes.
+// A batch is full at 16 quads; it is run early if a pixel comes again, or the draw or tile changes.
 #include "raster/quad_packer.h"
 
 #include <algorithm>
@@ -9,72 +9,124 @@ namespace lapilli {
 namespace {
 
 constexpr uint32_t kBlockQuadColumns = kBlockSize / 2;
+// From so many quads on, one triangle's in a block are a batch of their own: scalar coefficients and straight loads are
+// worth more than full lanes.
+constexpr int kQuadsWorthABatch = 12;
+
+// All lanes of the quads that have one in `lanes`.
+uint64_t quads_of(uint64_t lanes) {
+  const uint64_t pairs = lanes | lanes >> 1;
+  return (pairs | pairs >> 2) & 0x1111111111111111;
+}
+
+constexpr uint32_t first_quad_of_block(uint32_t block) { return first_texel_of_block(block) / 4; }
 
 }  // namespace
 
+void QuadPacker::begin_pass(ExecutionLimits& limits) {
+  limits_ = &limits;
+  out_of_memory_ = false;
+}
+
 void QuadPacker::begin_tile(const TilePlanes& planes, uint32_t tile_x, uint32_t tile_y) {
   batch_.planes = planes;
-  batch_.samples_passed = &samples_passed_;
+  block_batch_.planes = planes;
   tile_x_ = tile_x;
   tile_y_ = tile_y;
-  draw_ = nullptr;
 }
 
-bool QuadPacker::begin_draw(const DrawCall& draw, ExecutionLimits& limits) {
-  if (draw_ == &draw) return true;
+void QuadPacker::begin_draw(const DrawCall& draw, bool count_samples) {
+  if (draw_ == &draw) return;
   flush();
   draw_ = &draw;
-  std::copy_n(draw.state->blend_constants, 4, batch_.blend_constants);
-  return execution_.prepare(*draw.state->programs->fragment, *draw.resources, &limits);
-}
-
-void QuadPacker::add(const TriangleSetup& triangle, const BlockCoverage& block) {
-  const uint32_t first = (block.block_y * kBlocksPerTile + block.block_x) * kBlockQuads;
-  const uint32_t x = tile_x_ + block.block_x * kBlockSize;
-  const uint32_t y = tile_y_ + block.block_y * kBlockSize;
-  for (uint64_t rest = block.pixels; rest != 0;) {
-    const uint32_t quad = static_cast<uint32_t>(std::countr_zero(rest)) / 4;
-    rest &= ~(uint64_t{0xF} << (4 * quad));
-    add_quad(triangle, first + quad, x + quad % kBlockQuadColumns * 2, y + quad / kBlockQuadColumns * 2,
-             block.pixels >> (4 * quad) & 0xF);
+  prepared_ = false;
+  uint64_t* const counter = count_samples && draw.samples_passed != nullptr ? &samples_passed_ : nullptr;
+  for (FragmentBatch* batch : {&batch_, &block_batch_}) {
+    batch->samples_passed = counter;
+    std::copy_n(draw.state->blend_constants, 4, batch->blend_constants);
   }
 }
 
-void QuadPacker::add_quad(const TriangleSetup& triangle, uint32_t quad, uint32_t x, uint32_t y, uint64_t pixels) {
-  if (last_batch_[quad] == batch_number_) flush();
-  last_batch_[quad] = batch_number_;
+void QuadPacker::end_tile() {
+  flush();
+  draw_ = nullptr;
+}
+
+void QuadPacker::add(const TriangleSetup& triangle, uint32_t block, uint64_t pixels) {
+  const uint64_t quads = quads_of(pixels);
+  if (std::popcount(quads) >= kQuadsWorthABatch) return add_block(triangle, block, pixels);
+  for (uint64_t rest = quads; rest != 0; rest &= rest - 1) {
+    const uint32_t quad = static_cast<uint32_t>(std::countr_zero(rest)) / 4;
+    add_quad(triangle, block, quad, pixels >> (4 * quad) & 0xF);
+  }
+}
+
+void QuadPacker::add_quad(const TriangleSetup& triangle, uint32_t block, uint32_t quad, uint64_t pixels) {
+  const uint32_t in_tile = first_quad_of_block(block) + quad;
+  LastQuad& last = quad_last_[in_tile];
+  if (last.batch == batch_number_ && (last.pixels & pixels) != 0) flush();
+  last.pixels = static_cast<uint32_t>(pixels) | (last.batch == batch_number_ ? last.pixels : 0);
+  last.batch = batch_number_;
+  block_last_[block] = batch_number_;
   batch_.triangle[count_] = &triangle;
-  batch_.x[count_] = static_cast<uint16_t>(x);
-  batch_.y[count_] = static_cast<uint16_t>(y);
-  batch_.quad_in_tile[count_] = static_cast<uint16_t>(quad);
+  batch_.x[count_] = static_cast<uint16_t>(tile_x_ + column_of_bit(block) * kBlockSize + quad % kBlockQuadColumns * 2);
+  batch_.y[count_] = static_cast<uint16_t>(tile_y_ + row_of_bit(block) * kBlockSize + quad / kBlockQuadColumns * 2);
+  batch_.quad_in_tile[count_] = static_cast<uint16_t>(in_tile);
   lanes_ |= pixels << (4 * count_);
   if (++count_ == kBatchQuads) flush();
+}
+
+void QuadPacker::add_block(const TriangleSetup& triangle, uint32_t block, uint64_t pixels) {
+  if (block_last_[block] == batch_number_) flush();
+  const uint32_t x = tile_x_ + column_of_bit(block) * kBlockSize;
+  const uint32_t y = tile_y_ + row_of_bit(block) * kBlockSize;
+  const uint32_t first = first_quad_of_block(block);
+  for (uint32_t quad = 0; quad < kBatchQuads; ++quad) {
+    block_batch_.triangle[quad] = &triangle;
+    block_batch_.x[quad] = static_cast<uint16_t>(x + quad % kBlockQuadColumns * 2);
+    block_batch_.y[quad] = static_cast<uint16_t>(y + quad / kBlockQuadColumns * 2);
+    block_batch_.quad_in_tile[quad] = static_cast<uint16_t>(first + quad);
+  }
+  block_batch_.one_triangle = true;
+  block_batch_.whole_block = true;
+  run(block_batch_, pixels);
 }
 
 void QuadPacker::flush() {
   if (count_ == 0) return;
   batch_.one_triangle = true;
-  batch_.whole_block = count_ == kBatchQuads && batch_.quad_in_tile[0] % kBlockQuads == 0;
-  for (uint32_t q = 1; q < count_; ++q) {
-    batch_.one_triangle &= batch_.triangle[q] == batch_.triangle[0];
-    batch_.whole_block &= batch_.quad_in_tile[q] == batch_.quad_in_tile[0] + q;
-  }
+  for (uint32_t q = 1; q < count_; ++q) batch_.one_triangle &= batch_.triangle[q] == batch_.triangle[0];
   for (uint32_t q = count_; q < kBatchQuads; ++q) {
     batch_.triangle[q] = batch_.triangle[0];
     batch_.x[q] = batch_.x[0];
     batch_.y[q] = batch_.y[0];
     batch_.quad_in_tile[q] = batch_.quad_in_tile[0];
   }
-  samples_passed_ = 0;
-  execution_.run_fragments(batch_, lanes_);
-  if (draw_->samples_passed != nullptr) {
-    std::atomic_ref(*draw_->samples_passed).fetch_add(samples_passed_, std::memory_order_relaxed);
-  }
+  run(batch_, lanes_);
   count_ = 0;
   lanes_ = 0;
   if (++batch_number_ == 0) {
-    std::fill(std::begin(last_batch_), std::end(last_batch_), 0);
+    std::fill(std::begin(quad_last_), std::end(quad_last_), LastQuad{});
+    std::fill(std::begin(block_last_), std::end(block_last_), 0);
     batch_number_ = 1;
+  }
+}
+
+void QuadPacker::run(FragmentBatch& batch, uint64_t lanes) {
+  const Program& program = *draw_->state->programs->fragment;
+  if (!prepared_ && !execution_.prepare(program, *draw_->resources, limits_)) {
+    out_of_memory_ = true;
+    return;
+  }
+  prepared_ = true;
+  samples_passed_ = 0;
+  execution_.run_fragments(batch, lanes);
+  if (samples_passed_ != 0) {
+    std::atomic_ref(*draw_->samples_passed).fetch_add(samples_passed_, std::memory_order_relaxed);
+  }
+  if (draw_->ledger != nullptr) {
+    const uint64_t executed = 4 * static_cast<uint64_t>(std::popcount(quads_of(lanes)));
+    add_to_ledger(draw_->ledger, executed * lane_cost(program));
   }
 }
 

@@ -18,6 +18,7 @@ struct AttachmentTarget {
   std::byte* data = nullptr;  // null: unused
   const FormatInfo* format = nullptr;
   uint64_t row_pitch = 0;
+  uint64_t sample_pitch = 0;  // bytes from one sample's image to the next one's
   VkAttachmentLoadOp load_op = VK_ATTACHMENT_LOAD_OP_LOAD;
   VkAttachmentStoreOp store_op = VK_ATTACHMENT_STORE_OP_STORE;
   VkClearValue clear = {};
@@ -28,6 +29,7 @@ struct PassTarget {
   VkRect2D render_area = {};       // load and store ops and drawing apply to it only
   std::span<const AttachmentTarget> color;
   AttachmentTarget depth;
+  uint32_t samples = 1;
 };
 
 // Memory that is kept between passes: bins, tile storage, registers of the workers. One per queue.

@@ -4,65 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <bit>
 #include <cstring>
 #include <random>
 
-#include "shader/ir.h"
+#include "raster/scene_fixture.h"
 
 namespace lapilli {
 namespace {
-
-// A vertex of the test programs: position and colour, 8 floats.
-struct Vertex {
-  float position[4];
-  float color[4];
-};
-
-ProgramPtr build(Code code) {
-  Result<ProgramPtr> program = assemble(std::move(code));
-  EXPECT_TRUE(program.ok());
-  return program.ok() ? std::move(program.value()) : nullptr;
-}
-
-ProgramPtr vertex_program() {
-  Code code;
-  code.stage = VK_SHADER_STAGE_VERTEX_BIT;
-  code.attributes = {{0, 0, 0, VK_FORMAT_R32G32B32A32_SFLOAT}, {1, 0, 16, VK_FORMAT_R32G32B32A32_SFLOAT}};
-  const Reg position = code.emit_n(Opcode::fetch, 4, kNoReg, kNoReg, kNoReg, 0);
-  const Reg color = code.emit_n(Opcode::fetch, 4, kNoReg, kNoReg, kNoReg, 1);
-  for (uint32_t i = 0; i < 4; ++i) {
-    code.emit_void(Opcode::store_output, position + i, kNoReg, kNoReg, kSlotPosition + i);
-    code.emit_void(Opcode::store_output, color + i, kNoReg, kNoReg, kSlotVaryings + i);
-  }
-  code.output_slots = kSlotVaryings + 4;
-  code.emit_void(Opcode::end);
-  return build(std::move(code));
-}
-
-// Writes the interpolated colour, or with `accumulate` adds it to what is there.
-ProgramPtr fragment_program(bool depth, bool accumulate) {
-  Code code;
-  code.stage = VK_SHADER_STAGE_FRAGMENT_BIT;
-  code.color_formats = {VK_FORMAT_R32G32B32A32_SFLOAT};
-  const uint32_t done = code.new_label();
-  if (depth) {
-    const Reg z = code.emit(Opcode::frag_depth);
-    code.emit_void(Opcode::depth_test, z, kNoReg, kNoReg, VK_COMPARE_OP_LESS | 8u, done);
-  }
-  code.emit_void(Opcode::count_samples);
-  const Reg lambda = code.emit_n(Opcode::frag_linear, 2);
-  const Reg color = code.emit_n(Opcode::interpolate, 4, lambda, lambda + 1, kNoReg, 0);
-  Reg out[4];
-  const Reg old = accumulate ? code.emit_n(Opcode::load_color, 4) : kNoReg;
-  for (uint32_t i = 0; i < 4; ++i) out[i] = accumulate ? code.emit(Opcode::fadd, old + i, color + i) : color + i;
-  Instruction& store = code.append(Opcode::store_color);
-  store.imm2 = 0xF;
-  code.set_list(store, out);
-  code.place_label(done);
-  code.emit_void(Opcode::end);
-  return build(std::move(code));
-}
 
 struct Pass {
   GraphicsPrograms programs;
@@ -80,7 +28,11 @@ struct Pass {
   Pass(uint32_t w, uint32_t h, unsigned threads, bool with_depth, bool accumulate)
       : pool(threads), renderer(pool), width(w), height(h), color(size_t{w} * h * 4, 0.0f), depth(size_t{w} * h, 1.0f) {
     programs.vertex = vertex_program();
-    programs.fragment = fragment_program(with_depth, accumulate);
+    programs.depth_test = programs.early_depth = programs.depth_write = with_depth;
+    programs.depth_compare = with_depth ? VK_COMPARE_OP_LESS : VK_COMPARE_OP_ALWAYS;
+    programs.writes_color = true;
+    programs.deferrable = !accumulate;
+    programs.fragment = fragment_program(programs, accumulate);
     programs.varyings.assign(4, Interpolation::linear);
     programs.output_slots = kSlotVaryings + 4;
     color_target.data = reinterpret_cast<std::byte*>(color.data());
@@ -123,14 +75,6 @@ struct Pass {
   }
   const float* pixel(uint32_t x, uint32_t y) const { return &color[(size_t{y} * width + x) * 4]; }
 };
-
-void add_rectangle(std::vector<Vertex>& out, float x0, float y0, float x1, float y1, float z, float value) {
-  const Vertex corners[4] = {{{x0, y0, z, 1}, {value, value, value, value}},
-                             {{x1, y0, z, 1}, {value, value, value, value}},
-                             {{x0, y1, z, 1}, {value, value, value, value}},
-                             {{x1, y1, z, 1}, {value, value, value, value}}};
-  for (const int i : {0, 1, 2, 2, 1, 3}) out.push_back(corners[i]);
-}
 
 TEST(RenderPass, LaterTrianglesWinInOneDrawAndBetweenDraws) {
   Pass pass(150, 70, 2, false, false);

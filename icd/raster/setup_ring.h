@@ -1,0 +1,39 @@
+// The triangle set-ups that batches point to: made when a triangle is shaded, kept while it may be in a pending batch.
+#pragma once
+
+#include "raster/visibility.h"
+#include "shader/batch.h"
+
+namespace lapilli {
+
+class SetupRing {
+ public:
+  void begin_tile() { made_ = 0; }
+
+  // `setup`: the triangle's, if somebody has made it already.
+  const TriangleSetup& make(const BinChunk& chunk, const BinTriangle& triangle, const TriangleSetup* setup) {
+    const uint32_t place = made_++ % kCount;
+    setups_[place] = setup != nullptr ? *setup : make_triangle_setup(chunk, triangle);
+    make_varying_planes(chunk, triangle, varyings_[place]);
+    setups_[place].varyings = varyings_[place];
+    return setups_[place];
+  }
+  // The triangle's, which may be there from the last time.
+  const TriangleSetup& of(TileTriangle& triangle) {
+    if (triangle.setup == 0 || made_ - triangle.setup >= kUsable) {
+      make(*triangle.chunk, triangle.chunk->triangles[triangle.index], nullptr);
+      triangle.setup = made_;
+    }
+    return setups_[(triangle.setup - 1) % kCount];
+  }
+
+ private:
+  static constexpr uint32_t kCount = 64;
+  // What is handed out stays while kBatchQuads more are made.
+  static constexpr uint32_t kUsable = kCount - kBatchQuads;
+  TriangleSetup setups_[kCount];
+  float varyings_[kCount][3 * kMaxVaryingComponents];
+  uint32_t made_ = 0;
+};
+
+}  // namespace lapilli

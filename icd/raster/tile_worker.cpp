@@ -1,0 +1,326 @@
+// From bins to visible pixels: what happens to a triangle in a tile before it is shaded.
+#include "raster/tile_worker.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <new>
+
+namespace lapilli {
+namespace {
+
+constexpr int32_t kTile = static_cast<int32_t>(kTileSize);
+constexpr int32_t kBlock = static_cast<int32_t>(kBlockSize);
+// What a depth test of a block would cost as ops, in the unit of the ledger.
+uint64_t depth_test_cost() {
+  return uint64_t{kBatchLanes} * (op_info(Opcode::frag_depth).cost + op_info(Opcode::depth_test).cost);
+}
+
+constexpr DepthRange kAnyDepth = {-std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity()};
+
+// Calls body(bit) for each bit that is set.
+template <class Body>
+void for_each_bit(uint64_t word, Body&& body) {
+  for (; word != 0; word &= word - 1) body(static_cast<uint32_t>(std::countr_zero(word)));
+}
+
+}  // namespace
+
+bool TileWorker::begin_pass(const TilePass& pass) {
+  pass_ = &pass;
+  packer_.begin_pass(*pass.limits);
+  depth_attachment_ = 0;
+  while (depth_attachment_ < pass.attachments.size() && !pass.attachments[depth_attachment_].is_depth) {
+    ++depth_attachment_;
+  }
+  try {
+    storage_.reserve(pass.attachments, pass.samples);
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
+  return true;
+}
+
+bool TileWorker::draw_tile(uint32_t tile, const BinSet& set, bool first_set) {
+  tile_x_ = tile % pass_->grid.columns * kTileSize;
+  tile_y_ = tile / pass_->grid.columns * kTileSize;
+  const int32_t x = static_cast<int32_t>(tile_x_);
+  const int32_t y = static_cast<int32_t>(tile_y_);
+  const PixelRect rect = intersect(pass_->area, {x, y, x + kTile, y + kTile});
+  if (rect.empty()) return true;
+  const bool touched = std::any_of(set.chunks.begin(), set.chunks.end(),
+                                   [&](const BinChunk& chunk) { return !chunk.tile(tile).empty(); });
+  if (!touched && !first_set) return true;
+
+  const TileArea area = {static_cast<uint32_t>(rect.x0), static_cast<uint32_t>(rect.y0), static_cast<uint32_t>(rect.x1),
+                         static_cast<uint32_t>(rect.y1)};
+  tile_rect_ = {rect.x0 - x, rect.y0 - y, rect.x1 - x, rect.y1 - y};
+  storage_.begin_tile(area, first_set, set.last);
+  depth_begun_ = false;
+  try {
+    if (touched) draw_triangles(tile, set);
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
+  store();
+  return !packer_.out_of_memory();
+}
+
+void TileWorker::draw_triangles(uint32_t tile, const BinSet& set) {
+  for (uint32_t block = 0; block < 64; ++block) valid_[block] = pixels_in_rect(tile_rect_, block);
+  visibility_.begin_tile();
+  setups_.begin_tile();
+  deferred_draws_.clear();
+  draw_ = {};
+  TilePlanes planes;
+  for (size_t i = 0; i < pass_->attachments.size(); ++i) {
+    const PassAttachment& attachment = pass_->attachments[i];
+    (attachment.is_depth ? planes.depth : planes.color[attachment.color_index]) = storage_.plane(i, 0);
+  }
+  packer_.begin_tile(planes, tile_x_, tile_y_);
+  for (const BinChunk& chunk : set.chunks) {
+    for (const uint32_t index : chunk.tile(tile)) {
+      const BinRun& run = chunk.run_of(chunk.triangles[index]);
+      if (&run != draw_.run) begin_draw(run);
+      draw_triangle(chunk, index);
+    }
+    if (pass_->limits->expired.load(std::memory_order_relaxed)) break;
+  }
+  end_draw();
+  resolve();
+  packer_.end_tile();
+}
+
+void TileWorker::begin_draw(const BinRun& run) {
+  const DrawCall& call = pass_->draws[run.draw];
+  if (draw_.call == &call) {
+    draw_.run = &run;
+    return;
+  }
+  end_draw();
+  const GraphicsPrograms& programs = *call.state->programs;
+  draw_ = {};
+  draw_.call = &call;
+  draw_.run = &run;
+  draw_.early_depth = programs.early_depth;
+  draw_.late_depth = programs.depth_test && !programs.early_depth;
+  draw_.depth_write = programs.depth_write;
+  draw_.compare = programs.depth_compare;
+  if (!programs.fragment_reads_nothing || draw_.late_depth) {
+    draw_.shading = programs.deferrable && pass_->defer ? Shading::deferred : Shading::in_order;
+  }
+  draw_.counts = draw_.shading != Shading::in_order && call.samples_passed != nullptr;
+  draw_.tallies = draw_.counts || call.ledger != nullptr;
+  if (programs.depth_test) begin_depth();
+}
+
+void TileWorker::end_draw() {
+  // The raster's depth tests have to see what the program's have stored.
+  if (draw_.late_depth) packer_.flush();
+  if (draw_.tallies) report_draw();
+}
+
+void TileWorker::report_draw() {
+  const DrawCall& call = *draw_.call;
+  if (draw_.counts && draw_.passed != 0) {
+    std::atomic_ref(*call.samples_passed).fetch_add(draw_.passed, std::memory_order_relaxed);
+  }
+  if (call.ledger == nullptr) return;
+  add_to_ledger(call.ledger, Removal::blocks, draw_.judged_blocks, draw_.judged_blocks * depth_test_cost());
+  if (draw_.shading == Shading::none) return;
+  // What deferred shading runs all the same it subtracts later.
+  const uint64_t hidden = draw_.covered - (draw_.shading == Shading::in_order ? draw_.passed : 0);
+  add_to_ledger(call.ledger, Removal::hidden, hidden, hidden * lane_cost(*call.state->programs->fragment));
+}
+
+void TileWorker::begin_depth() {
+  if (depth_begun_ || depth_attachment_ == pass_->attachments.size()) return;
+  depth_begun_ = true;
+  float* const plane = reinterpret_cast<float*>(storage_.plane(depth_attachment_, 0));
+  if (storage_.begins_cleared(depth_attachment_)) {
+    float clear;
+    std::memcpy(&clear, &pass_->attachments[depth_attachment_].clear, sizeof clear);
+    depth_.begin_cleared(plane, clear);
+  } else {
+    storage_.fetch_all(depth_attachment_);
+    depth_.begin_loaded(plane, valid_);
+  }
+}
+
+// --- one triangle ---------------------------------------------------------------------------------------------------
+
+void TileWorker::draw_triangle(const BinChunk& chunk, uint32_t index) {
+  const BinTriangle& triangle = chunk.triangles[index];
+  const int32_t x = static_cast<int32_t>(tile_x_);
+  const int32_t y = static_cast<int32_t>(tile_y_);
+  PixelRect rect = intersect({triangle.x0 - x, triangle.y0 - y, triangle.x1 - x, triangle.y1 - y}, tile_rect_);
+  // A block is whole if all of it that can be seen is covered.
+  if (rect.x0 == tile_rect_.x0) rect.x0 &= -kBlock;
+  if (rect.y0 == tile_rect_.y0) rect.y0 &= -kBlock;
+  if (rect.x1 == tile_rect_.x1) rect.x1 = (rect.x1 + kBlock - 1) & -kBlock;
+  if (rect.y1 == tile_rect_.y1) rect.y1 = (rect.y1 + kBlock - 1) & -kBlock;
+  if (!coverage_.begin(make_edges(chunk, triangle), x, y, rect)) return;
+  triangle_ = {&chunk, index, 0, nullptr, false};
+
+  const bool one_block = rect.x0 / kBlock == (rect.x1 - 1) / kBlock && rect.y0 / kBlock == (rect.y1 - 1) / kBlock;
+  if (one_block) {
+    const uint32_t block = bit_of(static_cast<uint32_t>(rect.x0 / kBlock), static_cast<uint32_t>(rect.y0 / kBlock));
+    const uint64_t pixels = coverage_.pixels(block) & valid_[block];
+    if (pixels == 0) return;
+    draw_.covered += static_cast<uint64_t>(std::popcount(pixels));
+    bool always = false;
+    if (draw_.early_depth && judge_block(block, rect, always)) return;
+    draw_block(block, pixels, always);
+    return;
+  }
+
+  const TileCoverage::Blocks blocks = coverage_.blocks();
+  if (blocks.touched == 0) return;
+  if (draw_.call->ledger != nullptr) count_covered(blocks);
+  BlockVerdicts verdicts{0, kAllBits};
+  if (draw_.early_depth) {
+    verdicts = judge_blocks(rect);
+    draw_.judged_blocks += static_cast<uint64_t>(std::popcount((verdicts.never | verdicts.always) & blocks.touched));
+  }
+  const uint64_t seen = blocks.touched & ~verdicts.never;
+  const uint64_t whole = seen & blocks.inside & verdicts.always;
+  if (whole != 0) cover_blocks(whole);
+  for_each_bit(seen & ~whole, [&](uint32_t block) {
+    const bool inside = (blocks.inside >> block & 1) != 0;
+    const uint64_t pixels = inside ? valid_[block] : coverage_.pixels(block) & valid_[block];
+    if (pixels != 0) draw_block(block, pixels, (verdicts.always >> block & 1) != 0);
+  });
+}
+
+void TileWorker::count_covered(const TileCoverage::Blocks& blocks) {
+  for_each_bit(blocks.touched, [&](uint32_t block) {
+    const uint64_t pixels = coverage_.pixels(block) & valid_[block];
+    draw_.covered += static_cast<uint64_t>(std::popcount(pixels));
+  });
+}
+
+// True: nothing of it can pass.
+bool TileWorker::judge_block(uint32_t block, const PixelRect& rect, bool& always) {
+  triangle_depth_ = triangle_depth(setup());
+  if (!pass_->judge_blocks) return false;
+  const DepthBounds bounds = depth_bounds(triangle_depth_, tile_x_, tile_y_);
+  if (!bounds.known) return false;
+  const BlockVerdicts verdict = judge(draw_.compare, range_in_rect(bounds, rect), depth_.range(block));
+  always = verdict.always != 0;
+  draw_.judged_blocks += verdict.always | verdict.never;
+  return verdict.never != 0;
+}
+
+BlockVerdicts TileWorker::judge_blocks(const PixelRect& rect) {
+  triangle_depth_ = triangle_depth(setup());
+  if (!pass_->judge_blocks) return {};
+  const DepthBounds bounds = depth_bounds(triangle_depth_, tile_x_, tile_y_);
+  if (!bounds.known) return {};
+  if (judge(draw_.compare, range_in_rect(bounds, rect), depth_.range()).never != 0) return {kAllBits, 0};
+  return hierarchical_depth_functions().judge(draw_.compare, bounds, depth_.ranges(), triangle_ranges_);
+}
+
+// Whole blocks that are known to pass.
+void TileWorker::cover_blocks(uint64_t blocks) {
+  if (draw_.early_depth && draw_.depth_write) depth_.cover(blocks, number(), triangle_ranges_);
+  if (draw_.tallies) {
+    for_each_bit(blocks, [&](uint32_t b) { draw_.passed += static_cast<uint64_t>(std::popcount(valid_[b])); });
+  }
+  switch (draw_.shading) {
+    case Shading::none:
+      return;
+    case Shading::deferred:
+      return visibility_.cover(blocks, number());
+    case Shading::in_order:
+      for_each_bit(blocks, [&](uint32_t block) { shade_in_order(block, valid_[block]); });
+  }
+}
+
+// Pixels of a block; `always`: known to pass.
+void TileWorker::draw_block(uint32_t block, uint64_t pixels, bool always) {
+  if (draw_.early_depth && (!always || draw_.depth_write)) {
+    pixels = test_depth(block, pixels);
+    if (pixels == 0) return;
+  }
+  draw_.passed += static_cast<uint64_t>(std::popcount(pixels));
+  switch (draw_.shading) {
+    case Shading::none:
+      return;
+    case Shading::deferred:
+      if (pixels == valid_[block]) return visibility_.cover(uint64_t{1} << block, number());
+      return visibility_.cover_pixels(block, pixels, number());
+    case Shading::in_order:
+      return shade_in_order(block, pixels);
+  }
+}
+
+uint64_t TileWorker::test_depth(uint32_t block, uint64_t pixels) {
+  const uint32_t x = tile_x_ + column_of_bit(block) * kBlockSize;
+  const uint32_t y = tile_y_ + row_of_bit(block) * kBlockSize;
+  float* const stored = depths_of(block);
+  DepthRange range;
+  const uint64_t passed =
+      block_depth_functions().test[draw_.compare](triangle_depth_, x, y, pixels, draw_.depth_write, stored, range);
+  if (draw_.depth_write && passed != 0) depth_.set_range(block, range);
+  return passed;
+}
+
+void TileWorker::shade_in_order(uint32_t block, uint64_t pixels) {
+  if (draw_.late_depth) {
+    depths_of(block);
+    if (draw_.depth_write) depth_.set_range(block, kAnyDepth);
+  }
+  if (visibility_.pending()) resolve();
+  packer_.begin_draw(*draw_.call, true);
+  storage_.fetch_colors(uint64_t{1} << block);
+  if (triangle_.shaded == nullptr) {
+    const BinTriangle& triangle = triangle_.chunk->triangles[triangle_.index];
+    triangle_.shaded = &setups_.make(*triangle_.chunk, triangle, triangle_.has_setup ? &setup_ : nullptr);
+  }
+  packer_.add(*triangle_.shaded, block, pixels);
+}
+
+// The block's 64 depths, made if they are not there yet.
+float* TileWorker::depths_of(uint32_t block) {
+  const uint32_t owner = depth_.owner(block);
+  if (owner == TileDepth::kPlane) return depth_.plane(block);
+  if (owner == TileDepth::kCleared) return depth_.fill(block);
+  const TileTriangle& triangle = visibility_.triangle(owner);
+  const TriangleSetup setup = make_triangle_setup(*triangle.chunk, triangle.chunk->triangles[triangle.index]);
+  float* const depths = depth_.plane(block);
+  block_depth_functions().depth(triangle_depth(setup), tile_x_ + column_of_bit(block) * kBlockSize,
+                                tile_y_ + row_of_bit(block) * kBlockSize, depths);
+  depth_.set_in_plane(block);
+  return depths;
+}
+
+const TriangleSetup& TileWorker::setup() {
+  if (!triangle_.has_setup) {
+    setup_ = make_triangle_setup(*triangle_.chunk, triangle_.chunk->triangles[triangle_.index]);
+    triangle_.has_setup = true;
+  }
+  return setup_;
+}
+
+uint32_t TileWorker::number() {
+  if (triangle_.number == 0) {
+    if (deferred_draws_.empty() || deferred_draws_.back() != draw_.call) deferred_draws_.push_back(draw_.call);
+    triangle_.number =
+        visibility_.add({triangle_.chunk, triangle_.index, static_cast<uint32_t>(deferred_draws_.size() - 1), 0});
+  }
+  return triangle_.number;
+}
+
+// --- the end of the tile --------------------------------------------------------------------------------------------
+
+void TileWorker::store() {
+  storage_.store_colors();
+  if (depth_attachment_ == pass_->attachments.size() || !storage_.stores(depth_attachment_)) return;
+  const uint64_t changed = depth_begun_ ? depth_.changed() : 0;
+  for_each_bit(changed, [&](uint32_t block) { depths_of(block); });
+  storage_.store(depth_attachment_, changed);
+}
+
+}  // namespace lapilli

@@ -1,0 +1,110 @@
+// One thread's work on a tile: coverage, early depth and visibility in the order of the API, then shading.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "raster/quad_packer.h"
+#include "raster/setup_ring.h"
+#include "raster/tile_depth.h"
+#include "raster/tile_storage.h"
+#include "raster/visibility.h"
+
+namespace lapilli {
+
+// The pass at hand, for all threads.
+struct TilePass {
+  std::span<const DrawCall> draws;
+  std::span<const PassAttachment> attachments;
+  uint32_t samples = 1;
+  PixelRect area;  // pixels that are loaded, drawn to and stored
+  TileGrid grid;
+  ExecutionLimits* limits = nullptr;
+  bool defer = true, judge_blocks = true;  // what LAPILLI_KEEP does not switch off
+};
+
+class TileWorker {
+ public:
+  // False: out of memory.
+  bool begin_pass(const TilePass& pass);
+  bool draw_tile(uint32_t tile, const BinSet& set, bool first_set);
+
+ private:
+  // What happens to the pixels of a draw that pass.
+  enum class Shading : uint8_t { none, in_order, deferred };
+  struct CurrentDraw {
+    const DrawCall* call = nullptr;
+    const BinRun* run = nullptr;
+    Shading shading = Shading::none;
+    bool early_depth = false, late_depth = false, depth_write = false;
+    bool counts = false;   // samples that pass are counted here, not by the program
+    bool tallies = false;  // somebody wants the numbers below
+    VkCompareOp compare = VK_COMPARE_OP_ALWAYS;
+    uint64_t covered = 0, passed = 0;  // pixels
+    uint64_t judged_blocks = 0;        // without a depth test of their own
+  };
+  struct CurrentTriangle {
+    const BinChunk* chunk = nullptr;
+    uint32_t index = 0;
+    uint32_t number = 0;                    // in visibility_; 0: not there
+    const TriangleSetup* shaded = nullptr;  // for batches; null: not made
+    bool has_setup = false;                 // setup_ is its
+  };
+  // Pixels of one triangle in one block that are seen.
+  struct Pending {
+    uint64_t pixels;  // of the block, or of the quad in bits 0 to 3
+    uint32_t triangle;
+    uint8_t block;
+    uint8_t quad;  // kManyQuads, or one of the block
+  };
+  static constexpr uint8_t kManyQuads = 0xFF;
+
+  void draw_triangles(uint32_t tile, const BinSet& set);
+  void begin_draw(const BinRun& run);
+  void end_draw();
+  void report_draw();
+  void begin_depth();
+  void draw_triangle(const BinChunk& chunk, uint32_t index);
+  void count_covered(const TileCoverage::Blocks& blocks);
+  bool judge_block(uint32_t block, const PixelRect& rect, bool& always);
+  BlockVerdicts judge_blocks(const PixelRect& rect);
+  void cover_blocks(uint64_t blocks);
+  void draw_block(uint32_t block, uint64_t pixels, bool always);
+  uint64_t test_depth(uint32_t block, uint64_t pixels);
+  void shade_in_order(uint32_t block, uint64_t pixels);
+  float* depths_of(uint32_t block);
+  const TriangleSetup& setup();
+  uint32_t number();
+  void store();
+
+  void resolve();
+  void collect_pending();
+  void shade(const DrawCall& draw, std::span<const Pending> pending);
+
+  const TilePass* pass_ = nullptr;
+  TileStorage storage_;
+  TileDepth depth_;
+  Visibility visibility_;
+  SetupRing setups_;
+  QuadPacker packer_;
+
+  // The tile.
+  uint32_t tile_x_ = 0, tile_y_ = 0;
+  PixelRect tile_rect_;      // what of it lies in the area, from the tile's origin
+  uint64_t valid_[64] = {};  // the same by block
+  size_t depth_attachment_ = 0;
+  bool depth_begun_ = false;  // depth_ holds this tile
+
+  CurrentDraw draw_;
+  CurrentTriangle triangle_;
+  TriangleSetup setup_;
+  TriangleDepth triangle_depth_;
+  TileCoverage coverage_;
+  BlockRanges triangle_ranges_;
+
+  std::vector<const DrawCall*> deferred_draws_;  // TileTriangle::draw
+  std::vector<Pending> pending_, sorted_;
+  std::vector<uint32_t> draw_end_;
+};
+
+}  // namespace lapilli

@@ -1,0 +1,80 @@
+// Numbers of triangles, 64 pixels at once.
+#include "raster/visibility.h"
+
+#include <bit>
+
+#include "base/simd_dispatch.h"
+#include "base/simd_targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster/visibility.cpp"
+#include <hwy/foreach_target.h>
+
+#include "base/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lapilli {
+namespace HWY_NAMESPACE {
+namespace {
+
+void fill(uint32_t* numbers, uint32_t value) {
+  for (int i = 0; i < kLanes; i += kVectorLanes) store(broadcast(value), numbers + i);
+}
+
+void fill_lanes(uint32_t* numbers, uint64_t lanes, uint32_t value) {
+  for (int i = 0; i < kVectorsPerBatch; ++i) {
+    uint32_t* const at = numbers + i * kVectorLanes;
+    store(select(mask_of(lanes, i), broadcast(value), load<U>(at)), at);
+  }
+}
+
+void copy_lanes(uint32_t* to, const uint32_t* from, uint64_t lanes) {
+  for (int i = 0; i < kVectorsPerBatch; ++i) {
+    const int at = i * kVectorLanes;
+    store(select(mask_of(lanes, i), load<U>(from + at), load<U>(to + at)), to + at);
+  }
+}
+
+uint64_t equal(const uint32_t* numbers, uint32_t value) {
+  uint64_t lanes = 0;
+  for (int i = 0; i < kLanes; i += kVectorLanes) lanes |= bits_of(eq(load<U>(numbers + i), broadcast(value))) << i;
+  return lanes;
+}
+
+}  // namespace
+
+extern const LaneNumberFunctions kLaneNumbers;
+const LaneNumberFunctions kLaneNumbers = {fill, fill_lanes, copy_lanes, equal};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lapilli
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lapilli {
+namespace {
+
+constexpr PerTarget<const LaneNumberFunctions> kTables = LAPILLI_PER_TARGET(kLaneNumbers);
+
+}  // namespace
+
+const LaneNumberFunctions& lane_number_functions() { return for_target(kTables); }
+
+void Visibility::cover(uint64_t blocks, uint32_t number) {
+  whole_ |= blocks;
+  mixed_ &= ~blocks;
+  lane_number_functions().fill_lanes(owner_, blocks, number);
+}
+
+void Visibility::cover_pixels(uint32_t block, uint64_t pixels, uint32_t number) {
+  uint32_t* const seen = seen_ + block * kBlockTexels;
+  const uint64_t bit = uint64_t{1} << block;
+  const LaneNumberFunctions& functions = lane_number_functions();
+  if ((mixed_ & bit) == 0) functions.fill(seen, (whole_ & bit) != 0 ? owner_[block] : kNobody);
+  whole_ &= ~bit;
+  mixed_ |= bit;
+  functions.fill_lanes(seen, pixels, number);
+}
+
+}  // namespace lapilli
+#endif

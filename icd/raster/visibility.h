@@ -1,0 +1,64 @@
+// Which triangle is seen at each pixel of a tile: what deferred draws leave behind instead of colours.
+// DESIGN.md, "Deferred shading of opaque draws".
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "raster/coverage.h"
+
+namespace lapilli {
+
+// A triangle that somebody may have to come back to in this tile, to shade it or to know its depths.
+struct TileTriangle {
+  const BinChunk* chunk;
+  uint32_t index;  // in chunk->triangles
+  uint32_t draw;   // counted within the tile
+  uint32_t setup;  // where its TriangleSetup is (SetupRing)
+};
+
+class Visibility {
+ public:
+  static constexpr uint32_t kNobody = 0;
+
+  void begin_tile() {
+    whole_ = mixed_ = 0;
+    triangles_.assign(1, {});
+  }
+  // Numbers are given in the order of the API, from 1.
+  uint32_t add(const TileTriangle& triangle) {
+    triangles_.push_back(triangle);
+    return static_cast<uint32_t>(triangles_.size() - 1);
+  }
+  TileTriangle& triangle(uint32_t number) { return triangles_[number]; }
+  const TileTriangle& triangle(uint32_t number) const { return triangles_[number]; }
+
+  // From here on the triangle is what is seen: in whole blocks, or in the pixels of one.
+  void cover(uint64_t blocks, uint32_t number);
+  void cover_pixels(uint32_t block, uint64_t pixels, uint32_t number);
+
+  // Blocks with a pixel that waits to be shaded, by one triangle or by any.
+  bool pending() const { return (whole_ | mixed_) != 0; }
+  uint64_t whole() const { return whole_; }
+  uint64_t mixed() const { return mixed_; }
+  uint32_t whole_block(uint32_t block) const { return owner_[block]; }
+  const uint32_t* pixels(uint32_t block) const { return seen_ + block * kBlockTexels; }
+  void forget_pixels() { whole_ = mixed_ = 0; }
+
+ private:
+  uint64_t whole_ = 0, mixed_ = 0;
+  alignas(64) uint32_t owner_[64];          // of whole blocks
+  alignas(64) uint32_t seen_[kTileTexels];  // [block's bit][lane], of mixed blocks
+  std::vector<TileTriangle> triangles_;
+};
+
+// Lanes of 64 numbers; compiled for each SIMD target.
+struct LaneNumberFunctions {
+  void (*fill)(uint32_t* numbers, uint32_t value);
+  void (*fill_lanes)(uint32_t* numbers, uint64_t lanes, uint32_t value);
+  void (*copy_lanes)(uint32_t* to, const uint32_t* from, uint64_t lanes);
+  uint64_t (*equal)(const uint32_t* numbers, uint32_t value);
+};
+const LaneNumberFunctions& lane_number_functions();
+
+}  // namespace lapilli
