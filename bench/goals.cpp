@@ -14,31 +14,32 @@ std::string times(double value) { return number(value, value < 10 ? 2 : 1) + "×
 
 Goal unmeasured(const char* what, const std::string& required) { return {what, required, "", Verdict::unknown}; }
 
-Goal goal(const char* what, const std::string& required, const std::string& measured, bool holds) {
-  return {what, required, measured, holds ? Verdict::holds : Verdict::fails};
+Goal goal(const char* what, const std::string& required, const std::string& measured, bool holds,
+          const std::string& detail = {}) {
+  return {what, required, measured, holds ? Verdict::holds : Verdict::fails, detail};
 }
 
 // The scenes at 1280x720 that the first driver drew and somebody else did too.
-std::vector<const Series*> compared(const Run& run) {
+std::vector<const Series*> compared(const Findings& found) {
   std::vector<const Series*> scenes;
-  for (const Series& series : run.series) {
+  for (const Series& series : found.series) {
     if (series.size() == "1280x720" && series.ratio() > 0) scenes.push_back(&series);
   }
   return scenes;
 }
 
-const Series* find(const Run& run, std::string_view scene) {
-  for (const Series* series : compared(run)) {
+const Series* find(const Findings& found, std::string_view scene) {
+  for (const Series* series : compared(found)) {
     if (series->scene == scene) return series;
   }
   return nullptr;
 }
 
-Goal faster(const Run& run, const char* what, std::initializer_list<std::pair<const char*, double>> scenes) {
+Goal faster(const Findings& found, const char* what, std::initializer_list<std::pair<const char*, double>> scenes) {
   std::string required, measured;
   bool holds = true;
   for (const auto& [scene, least] : scenes) {
-    const Series* series = find(run, scene);
+    const Series* series = find(found, scene);
     const std::string separator = required.empty() ? "" : "; ";
     required += separator + number(least, 0) + "×";
     measured += separator + (series != nullptr ? times(series->ratio()) : "?");
@@ -48,8 +49,8 @@ Goal faster(const Run& run, const char* what, std::initializer_list<std::pair<co
   return goal(what, required, measured, holds);
 }
 
-Goal every_scene(const Run& run) {
-  const auto scenes = compared(run);
+Goal every_scene(const Findings& found) {
+  const auto scenes = compared(found);
   const char* what = "every scene, frame, against the faster peer";
   if (scenes.empty()) return unmeasured(what, "1× each");
   std::string slower;
@@ -58,16 +59,16 @@ Goal every_scene(const Run& run) {
     if (series->ratio() >= 1) {
       ++fine;
     } else {
-      slower += (slower.empty() ? "; slower: " : ", ") + series->scene + " " + times(series->ratio());
+      slower += (slower.empty() ? "slower: " : ", ") + series->scene + " " + times(series->ratio());
     }
   }
-  return goal(what, "1× each", std::to_string(fine) + " of " + std::to_string(scenes.size()) + slower,
-              fine == scenes.size());
+  return goal(what, "1× each", std::to_string(fine) + " of " + std::to_string(scenes.size()), fine == scenes.size(),
+              slower);
 }
 
-Goal geometric_mean(const Run& run) {
+Goal geometric_mean(const Findings& found) {
   std::vector<double> ratios;
-  for (const Series* series : compared(run)) ratios.push_back(series->ratio());
+  for (const Series* series : compared(found)) ratios.push_back(series->ratio());
   const char* what = "geometric mean over all scenes but our two best";
   if (ratios.size() < 3) return unmeasured(what, "4×");
   std::sort(ratios.begin(), ratios.end());
@@ -77,9 +78,9 @@ Goal geometric_mean(const Run& run) {
   return goal(what, "4×", times(mean), mean >= 4);
 }
 
-Goal many_pipelines(const Run& run) {
+Goal many_pipelines(const Findings& found) {
   const char* what = "200 pipelines, create + first frame, against SwiftShader; lavapipe";
-  const Series* series = find(run, "pipelines");
+  const Series* series = find(found, "pipelines");
   if (series == nullptr) return unmeasured(what, "50×; 150×");
   const auto total = [](const Result& result) { return result.pipelines + result.first_frame; };
   const double ours = total(series->results.front());
@@ -95,9 +96,9 @@ Goal many_pipelines(const Run& run) {
   return goal(what, "50×; 150×", measured + " (" + number(ours, 2) + " ms)", holds);
 }
 
-Goal first_triangle(const Run& run) {
+Goal first_triangle(const Findings& found) {
   const char* what = "first frame of one triangle with its pipeline, device already there";
-  const Series* series = find(run, "triangle");
+  const Series* series = find(found, "triangle");
   if (series == nullptr) return unmeasured(what, "under 1 ms");
   const Result& ours = series->results.front();
   const double ms = ours.pipelines + ours.first_frame;
@@ -107,14 +108,14 @@ Goal first_triangle(const Run& run) {
       ms < 1);
 }
 
-Goal small_start(const Run& run) {
+Goal small_start(const Findings& found) {
   const char* what = "instance + device; memory after it, above a driver that does nothing";
   const char* required = "at most 1 ms; 4 MB";
-  if (run.starts.size() < 2 || !run.starts.front().absent.empty() || !run.starts.back().absent.empty()) {
+  if (found.starts.size() < 2 || !found.starts.front().absent.empty() || !found.starts.back().absent.empty()) {
     return unmeasured(what, required);
   }
-  const Start& ours = run.starts.front();
-  const Start& nothing = run.starts.back();
+  const Start& ours = found.starts.front();
+  const Start& nothing = found.starts.back();
   const double ms = ours.instance_device - nothing.instance_device;
   const double mb = (ours.resident_kb - nothing.resident_kb) / 1024;
   return goal(what, required, number(ms, 2) + " ms; " + number(mb, 1) + " MB", ms <= 1 && mb <= 4);
@@ -123,24 +124,24 @@ Goal small_start(const Run& run) {
 // Frames below this are too short to be shared: waking a thread takes a noticeable part of them.
 constexpr double kSmallest = 0.5;  // ms with one thread
 
-Goal two_threads(const Run& run) {
+Goal two_threads(const Findings& found) {
   const char* what = "two threads against one, scenes of at least 0.5 ms";
   double least = 0;
   std::string below;
-  for (const TwoThreads& scene : run.two_threads) {
+  for (const TwoThreads& scene : found.two_threads) {
     if (scene.one_ms < kSmallest || scene.two_ms <= 0) continue;
     const double ratio = scene.one_ms / scene.two_ms;
     least = least == 0 ? ratio : std::min(least, ratio);
-    if (ratio < 1.8) below += (below.empty() ? "; below: " : ", ") + scene.scene + " " + times(ratio);
+    if (ratio < 1.8) below += (below.empty() ? "below: " : ", ") + scene.scene + " " + times(ratio);
   }
   if (least == 0) return unmeasured(what, "1.8× each");
-  return goal(what, "1.8× each", "least " + times(least) + below, below.empty());
+  return goal(what, "1.8× each", "least " + times(least), below.empty(), below);
 }
 
-Goal near_limits(const Run& run) {
+Goal near_limits(const Findings& found) {
   const char* what = "each scene against its limit";
   const char* required = "within 4×, or a reason";
-  const auto scenes = compared(run);
+  const auto scenes = compared(found);
   if (scenes.empty()) return unmeasured(what, required);
   size_t within = 0;
   std::string beyond;
@@ -153,28 +154,28 @@ Goal near_limits(const Run& run) {
     }
     const bool excused = !reason_for_distance(series->scene).empty();
     holds = holds && excused;
-    beyond += (beyond.empty() ? "; beyond: " : ", ") + series->scene + " " + times(distance) +
+    beyond += (beyond.empty() ? "beyond: " : ", ") + series->scene + " " + times(distance) +
               (excused ? " (reason given)" : "");
   }
-  return goal(what, required, std::to_string(within) + " of " + std::to_string(scenes.size()) + beyond, holds);
+  return goal(what, required, std::to_string(within) + " of " + std::to_string(scenes.size()), holds, beyond);
 }
 
 }  // namespace
 
-std::vector<Goal> goals_of(const Run& run) {
+std::vector<Goal> goals_of(const Findings& found) {
   return {
-      every_scene(run),
-      geometric_mean(run),
-      faster(run, "64 opaque layers, back to front; front to back", {{"layers_btf", 15}, {"layers_ftb", 5}}),
-      faster(run, "million-triangle grid; tiny triangles", {{"grid", 4}, {"tiny", 4}}),
-      faster(run, "blending, 32 layers", {{"blend", 4}}),
-      faster(run, "bilinear full screen", {{"bilinear", 3}}),
-      faster(run, "10,000 draws; 1,000 draws with dynamic UBO and texture", {{"draws", 3}, {"descriptors", 8}}),
-      many_pipelines(run),
-      first_triangle(run),
-      small_start(run),
-      two_threads(run),
-      near_limits(run),
+      every_scene(found),
+      geometric_mean(found),
+      faster(found, "64 opaque layers, back to front; front to back", {{"layers_btf", 15}, {"layers_ftb", 5}}),
+      faster(found, "million-triangle grid; tiny triangles", {{"grid", 4}, {"tiny", 4}}),
+      faster(found, "blending, 32 layers", {{"blend", 4}}),
+      faster(found, "bilinear full screen", {{"bilinear", 3}}),
+      faster(found, "10,000 draws; 1,000 draws with dynamic UBO and texture", {{"draws", 3}, {"descriptors", 8}}),
+      many_pipelines(found),
+      first_triangle(found),
+      small_start(found),
+      two_threads(found),
+      near_limits(found),
   };
 }
 

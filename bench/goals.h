@@ -1,4 +1,4 @@
-// What has to be true of the first driver beside the others, computed from a run.
+// What has to be true of the first driver beside the others, computed from a found.
 #pragma once
 
 #include "growth.h"
@@ -7,7 +7,7 @@
 namespace lapilli::bench {
 
 // Everything that a run measured.
-struct Run {
+struct Findings {
   std::vector<run::Driver> drivers;
   Plan plan;
   Rates rates;
@@ -25,9 +25,10 @@ struct Goal {
   std::string required;
   std::string measured;  // empty if nothing of it was measured
   Verdict verdict = Verdict::unknown;
+  std::string detail = {};  // which scenes it fails on, with their figures
 };
 // All at 1280x720.
-std::vector<Goal> goals_of(const Run& run);
+std::vector<Goal> goals_of(const Findings& found);
 
 // Why a scene is further from its limit than four times, in a sentence; empty if nobody has said so.
 std::string reason_for_distance(std::string_view scene);

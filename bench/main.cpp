@@ -58,13 +58,13 @@ std::vector<const SceneEntry*> scenes_of(const Arguments& arguments) {
 }
 
 int bench(const Arguments& arguments) {
-  Run run;
-  run.drivers = run::drivers_of(arguments.manifests, "lapilli_bench");
-  if (run.drivers.empty()) {
+  Findings found;
+  found.drivers = run::drivers_of(arguments.manifests, "lapilli_bench");
+  if (found.drivers.empty()) {
     std::fprintf(stderr, "lapilli_bench: no driver; name manifests with --icd or VK_DRIVER_FILES\n");
     return 1;
   }
-  Plan& plan = run.plan;
+  Plan& plan = found.plan;
   plan.program = fs::read_symlink("/proc/self/exe");
   plan.pictures = arguments.output + "/bench";
   fs::create_directories(plan.pictures);
@@ -75,35 +75,35 @@ int bench(const Arguments& arguments) {
   }
   const bool everything = arguments.scenes.empty();
   Machine machine;
-  std::printf("%s", heading(run.drivers).c_str());
+  std::printf("%s", heading(found.drivers).c_str());
   for (const VkExtent2D& size : sizes_of(arguments)) {
     const bool main_size = size.width == kMainSize.width && size.height == kMainSize.height;
     Plan here = plan;
     if (!main_size) here.starts = 1;
     for (const SceneEntry* entry : scenes_of(arguments)) {
       machine.measure();
-      Series series = measure(*entry, {size, arguments.count}, contestants_of(run.drivers), here);
+      Series series = measure(*entry, {size, arguments.count}, contestants_of(found.drivers), here);
       series.limit = machine.limit_of(create_scene(*entry, series.options)->work());
       std::printf("%s", line(series).c_str());
       std::fflush(stdout);
-      run.series.push_back(std::move(series));
+      found.series.push_back(std::move(series));
     }
   }
   if (everything) {
     std::fprintf(stderr, "lapilli_bench: instance and device; threads\n");
-    run.starts = measure_starts(run.drivers, plan, 9);
-    run.two_threads = measure_two_threads(scenes_of(arguments), run.drivers.front(), plan);
+    found.starts = measure_starts(found.drivers, plan, 9);
+    found.two_threads = measure_two_threads(scenes_of(arguments), found.drivers.front(), plan);
   }
   if (everything && !arguments.quick) {
     std::fprintf(stderr, "lapilli_bench: growth\n");
-    run.growth = measure_growth(run.drivers, plan);
+    found.growth = measure_growth(found.drivers, plan);
   }
-  run.rates = machine.rates();
-  run.threads = machine.threads();
-  if (everything) std::printf("\n%s", table(goals_of(run)).c_str());
+  found.rates = machine.rates();
+  found.threads = machine.threads();
+  if (everything) std::printf("\n%s", table(goals_of(found)).c_str());
 
   const std::string data = arguments.output + "/bench.json";
-  std::ofstream(data) << page(run).dump(1) << '\n';
+  std::ofstream(data) << page(found).dump(1) << '\n';
   if (run::write_page(data, arguments.output + "/bench.html")) return 0;
   std::fprintf(stderr, "lapilli_bench: the page could not be made; %s is there\n", data.c_str());
   return 1;

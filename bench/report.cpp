@@ -31,14 +31,15 @@ json block_of(Cells cells) {
 }
 
 Cells goal_cells(const std::vector<Goal>& goals) {
-  Cells cells = {{"what must be true at 1280x720", "at least", "measured", ""}};
-  for (const Goal& goal : goals) cells.push_back({goal.what, goal.required, goal.measured, word(goal.verdict)});
+  Cells cells = {{"what must be true at 1280x720", "at least", "measured", "", "where not"}};
+  for (const Goal& goal : goals)
+    cells.push_back({goal.what, goal.required, goal.measured, word(goal.verdict), goal.detail});
   return cells;
 }
 
-std::vector<const Series*> of_size(const Run& run, const std::string& size) {
+std::vector<const Series*> of_size(const Findings& found, const std::string& size) {
   std::vector<const Series*> chosen;
-  for (const Series& series : run.series) {
+  for (const Series& series : found.series) {
     if (series.size() == size) chosen.push_back(&series);
   }
   return chosen;
@@ -80,11 +81,11 @@ json bars(const std::string& title, const std::string& label, const std::vector<
           {"wide", true},   {"groups", groups}, {"series", series}, {"order", order}};
 }
 
-json frames_section(const Run& run, const std::string& size) {
-  const auto scenes = of_size(run, size);
-  const bool alone = run.drivers.size() < 2;
+json frames_section(const Findings& found, const std::string& size) {
+  const auto scenes = of_size(found, size);
+  const bool alone = found.drivers.size() < 2;
   Cells frames = table_of(
-      scenes, run.drivers, "ms",
+      scenes, found.drivers, "ms",
       {"best peer / ours", "limit ms", "limited by", "ours / limit", "CPU ms", "recording ms", "marked"},
       [](const Result& r) { return milliseconds(r.frame); },
       [&](const Series& s) -> std::vector<std::string> {
@@ -104,15 +105,15 @@ json frames_section(const Run& run, const std::string& size) {
       });
   return {{"heading", "Frames at " + size},
           {"blocks",
-           {bars("Frame, submission to fence", "ms", scenes, run.drivers, [](const Result& r) { return r.frame; }),
+           {bars("Frame, submission to fence", "ms", scenes, found.drivers, [](const Result& r) { return r.frame; }),
             block_of(frames)}}};
 }
 
-json pipelines_section(const Run& run) {
-  const auto scenes = of_size(run, "1280x720");
+json pipelines_section(const Findings& found) {
+  const auto scenes = of_size(found, "1280x720");
   const auto total = [](const Result& r) { return r.pipelines + r.first_frame; };
   const Cells cells = table_of(
-      scenes, run.drivers, "ms", {"ours: pipelines ms", "ours: first frame ms"},
+      scenes, found.drivers, "ms", {"ours: pipelines ms", "ours: first frame ms"},
       [&](const Result& r) { return milliseconds(total(r)); },
       [](const Series& s) -> std::vector<std::string> {
         const Result& ours = s.results.front();
@@ -123,12 +124,12 @@ json pipelines_section(const Run& run) {
           {"text",
            "What it takes from shader modules to the first finished frame, the device and all resources being there; "
            "shader caches off; 1280x720."},
-          {"blocks", {bars("Pipelines + first frame", "ms", scenes, run.drivers, total), block_of(cells)}}};
+          {"blocks", {bars("Pipelines + first frame", "ms", scenes, found.drivers, total), block_of(cells)}}};
 }
 
-json starts_section(const Run& run) {
+json starts_section(const Findings& found) {
   Cells cells = {{"driver", "instance + device ms", "resident MB", "of these its own (anonymous) MB"}};
-  for (const Start& start : run.starts) {
+  for (const Start& start : found.starts) {
     if (!start.absent.empty()) {
       cells.push_back({start.driver, start.absent});
       continue;
@@ -137,7 +138,7 @@ json starts_section(const Run& run) {
                      number(start.anonymous_kb / 1024, 1)});
   }
   const Cells memory = table_of(
-      of_size(run, "1280x720"), run.drivers, "MB", {}, [](const Result& r) { return number(r.peak_kb / 1024, 0); },
+      of_size(found, "1280x720"), found.drivers, "MB", {}, [](const Result& r) { return number(r.peak_kb / 1024, 0); },
       [](const Series&) { return std::vector<std::string>(); });
   return {{"heading", "Instance, device and memory"},
           {"text",
@@ -146,9 +147,9 @@ json starts_section(const Run& run) {
           {"blocks", {block_of(cells), block_of(memory)}}};
 }
 
-json growth_section(const Run& run) {
+json growth_section(const Findings& found) {
   json blocks = json::array();
-  for (const Curve& curve : run.growth) {
+  for (const Curve& curve : found.growth) {
     json points = json::array();
     for (const Curve::Point& point : curve.points) {
       points.push_back({{"series", point.driver}, {"label", "frame"}, {"x", point.x}, {"y", point.ms}});
@@ -163,25 +164,25 @@ json growth_section(const Run& run) {
                       {"points", points}});
   }
   Cells cells = {{"scene", "one thread ms", "two threads ms", "ratio"}};
-  for (const TwoThreads& scene : run.two_threads) {
+  for (const TwoThreads& scene : found.two_threads) {
     cells.push_back(
         {scene.scene, milliseconds(scene.one_ms), milliseconds(scene.two_ms), number(scene.one_ms / scene.two_ms, 2)});
   }
   blocks.push_back(block_of(cells));
   return {{"heading", "Growth"},
-          {"text", "Last: " + run.drivers.front().label + " with one thread and with two."},
+          {"text", "Last: " + found.drivers.front().label + " with one thread and with two."},
           {"blocks", blocks}};
 }
 
-json absences_section(const Run& run) {
+json absences_section(const Findings& found) {
   Cells cells = {{"scene", "driver", "why it is not there"}};
-  for (const Series* series : of_size(run, run.series.front().size())) {
+  for (const Series* series : of_size(found, found.series.front().size())) {
     for (const Result& result : series->results) {
       if (!result.absent.empty()) cells.push_back({series->scene, result.driver, result.absent});
     }
   }
   Cells distances = {{"scene", "ours / limit", "why"}};
-  for (const Series* series : of_size(run, "1280x720")) {
+  for (const Series* series : of_size(found, "1280x720")) {
     const std::string reason = reason_for_distance(series->scene);
     if (reason.empty() || !series->results.front().absent.empty()) continue;
     distances.push_back({series->scene, number(series->results.front().frame / series->limit.ms, 1), reason});
@@ -189,9 +190,9 @@ json absences_section(const Run& run) {
   return {{"heading", "Not there, and far from the limit"}, {"blocks", {block_of(cells), block_of(distances)}}};
 }
 
-json pictures_section(const Run& run) {
+json pictures_section(const Findings& found) {
   json images = json::array();
-  for (const Series* series : of_size(run, "256x256")) {
+  for (const Series* series : of_size(found, "256x256")) {
     const Result& ours = series->results.front();
     if (ours.colors > 0)
       images.push_back({{"file", "bench/" + picture_name(*series, ours)}, {"caption", series->scene}});
@@ -206,9 +207,9 @@ json pictures_section(const Run& run) {
   return {{"heading", "The scenes"}, {"text", text + "."}, {"blocks", blocks}};
 }
 
-json results(const Run& run, const std::vector<Goal>& goals) {
+json results(const Findings& found, const std::vector<Goal>& goals) {
   json series = json::array();
-  for (const Series& s : run.series) {
+  for (const Series& s : found.series) {
     for (const Result& r : s.results) {
       json entry = {{"scene", s.scene},
                     {"width", s.options.extent.width},
@@ -239,18 +240,18 @@ json results(const Run& run, const std::vector<Goal>& goals) {
     }
   }
   json starts = json::array();
-  for (const Start& s : run.starts) {
+  for (const Start& s : found.starts) {
     starts.push_back({{"driver", s.driver},
                       {"instance_device_ms", s.instance_device},
                       {"resident_kb", s.resident_kb},
                       {"anonymous_kb", s.anonymous_kb}});
   }
   json threads = json::array();
-  for (const TwoThreads& t : run.two_threads) {
+  for (const TwoThreads& t : found.two_threads) {
     threads.push_back({{"scene", t.scene}, {"one_ms", t.one_ms}, {"two_ms", t.two_ms}, {"ratio", t.one_ms / t.two_ms}});
   }
   json growth = json::array();
-  for (const Curve& curve : run.growth) {
+  for (const Curve& curve : found.growth) {
     json points = json::array();
     for (const Curve::Point& p : curve.points) points.push_back({{"driver", p.driver}, {"x", p.x}, {"ms", p.ms}});
     growth.push_back({{"title", curve.title}, {"x", curve.x_label}, {"points", points}});
@@ -260,14 +261,15 @@ json results(const Run& run, const std::vector<Goal>& goals) {
     lines.push_back({{"what", goal.what},
                      {"required", goal.required},
                      {"measured", goal.measured},
-                     {"verdict", word(goal.verdict)}});
+                     {"verdict", word(goal.verdict)},
+                     {"detail", goal.detail}});
   }
   return {{"machine",
            {{"cpu", run::cpu_name()},
-            {"threads", run.threads},
-            {"operations_per_s", run.rates.operations},
-            {"loads_per_s", run.rates.loads},
-            {"cached_bytes_per_s", run.rates.cached}}},
+            {"threads", found.threads},
+            {"operations_per_s", found.rates.operations},
+            {"loads_per_s", found.rates.loads},
+            {"cached_bytes_per_s", found.rates.cached}}},
           {"goals", lines},
           {"series", series},
           {"starts", starts},
@@ -306,41 +308,49 @@ std::string line(const Series& series) {
   return text;
 }
 
-std::string table(const std::vector<Goal>& goals) { return run::aligned(goal_cells(goals), 4); }
+std::string table(const std::vector<Goal>& goals) {
+  Cells cells = goal_cells(goals);
+  for (std::vector<std::string>& row : cells) row.pop_back();
+  std::string text = run::aligned(cells, 4);
+  for (const Goal& goal : goals) {
+    if (!goal.detail.empty()) text += "\n" + goal.what + "\n    " + goal.detail + "\n";
+  }
+  return text;
+}
 
-json page(const Run& run) {
-  const std::vector<Goal> goals = goals_of(run);
+json page(const Findings& found) {
+  const std::vector<Goal> goals = goals_of(found);
   std::string devices;
-  for (const Result& result : run.series.front().results) {
+  for (const Result& result : found.series.front().results) {
     if (!result.device.empty()) devices += (devices.empty() ? "" : "; ") + result.driver + ": " + result.device;
   }
   const auto giga = [](double value) { return number(1e-9 * value, 0); };
-  const json notes = {run::cpu_name() + ", " + std::to_string(run.threads) + " hardware threads. " + devices + ".",
-                      "Medians of " + std::to_string(run.plan.rounds) + " turns of " + number(run.plan.turn_ms, 0) +
-                          " ms, drivers alternating; pipelines and first frames of " + std::to_string(run.plan.starts) +
-                          " fresh processes, shader caches off. A frame is submission to fence; recording is apart. A "
-                          "turn in which other processes "
-                          "used more than " +
-                          number(100 * kOthers, 0) +
-                          " % of the CPUs is left out; where that was half of them or more, the figure is marked.",
-                      "Limits, measured in the same run on all threads: " + giga(run.rates.operations) +
-                          " G operations/s (an fma is one), " + giga(run.rates.loads) + " G loads/s, " +
-                          giga(run.rates.cached) +
-                          " GB/s within 16 KB; memory is measured with buffers as large as the scene's own."};
+  const json notes = {
+      run::cpu_name() + ", " + std::to_string(found.threads) + " hardware threads. " + devices + ".",
+      "Medians of " + std::to_string(found.plan.rounds) + " turns of " + number(found.plan.turn_ms, 0) +
+          " ms, drivers alternating; pipelines and first frames of " + std::to_string(found.plan.starts) +
+          " fresh processes, shader caches off. A frame is submission to fence; recording is apart. A "
+          "turn in which other processes "
+          "used more than " +
+          number(100 * kOthers, 0) +
+          " % of the CPUs is left out; where that was half of them or more, the figure is marked.",
+      "Limits, measured in the same run on all threads: " + giga(found.rates.operations) +
+          " G operations/s (an fma is one), " + giga(found.rates.loads) + " G loads/s, " + giga(found.rates.cached) +
+          " GB/s within 16 KB; memory is measured with buffers as large as the scene's own."};
   json sections = json::array({{{"heading", "What must be true"}, {"blocks", {block_of(goal_cells(goals))}}}});
   std::vector<std::string> sizes;
-  for (const Series& series : run.series) {
+  for (const Series& series : found.series) {
     if (std::find(sizes.begin(), sizes.end(), series.size()) == sizes.end()) sizes.push_back(series.size());
   }
-  for (const std::string& size : sizes) sections.push_back(frames_section(run, size));
-  if (!of_size(run, "1280x720").empty()) sections.push_back(pipelines_section(run));
-  if (!run.starts.empty()) sections.push_back(starts_section(run));
-  if (!run.two_threads.empty()) sections.push_back(growth_section(run));
-  sections.push_back(absences_section(run));
-  sections.push_back(pictures_section(run));
+  for (const std::string& size : sizes) sections.push_back(frames_section(found, size));
+  if (!of_size(found, "1280x720").empty()) sections.push_back(pipelines_section(found));
+  if (!found.starts.empty()) sections.push_back(starts_section(found));
+  if (!found.two_threads.empty()) sections.push_back(growth_section(found));
+  sections.push_back(absences_section(found));
+  sections.push_back(pictures_section(found));
   return {{"title", "Lapilli's frames beside its peers'"},
           {"notes", notes},
-          {"results", results(run, goals)},
+          {"results", results(found, goals)},
           {"sections", sections}};
 }
 

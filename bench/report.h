@@ -14,6 +14,6 @@ std::string line(const Series& series);
 std::string table(const std::vector<Goal>& goals);
 
 // {"title", "notes", "results", "sections"}; page.py reads all but "results".
-nlohmann::json page(const Run& run);
+nlohmann::json page(const Findings& found);
 
 }  // namespace lapilli::bench

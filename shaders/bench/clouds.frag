@@ -3,7 +3,11 @@
 layout(location = 0) in vec2 place;
 layout(location = 0) out vec4 color;
 
-vec4 permute(vec4 x) { return fract(x * x * 0.0137 + x * 0.371) * 289.0; }
+// A permutation of 0 to 255, exact in float32: every driver gets the same.
+vec4 permute(vec4 x) {
+  vec4 y = x * (x * 6.0 + 5.0);
+  return y - floor(y * 0.00390625) * 256.0;
+}
 
 float gradient_noise(vec2 p) {
   vec2 cell = floor(p);
@@ -11,7 +15,7 @@ float gradient_noise(vec2 p) {
   vec4 corner_x = vec4(0.0, 1.0, 0.0, 1.0) + cell.x;
   vec4 corner_y = vec4(0.0, 0.0, 1.0, 1.0) + cell.y;
   vec4 h = permute(permute(corner_x) + corner_y);
-  vec4 gradient_x = fract(h * 0.0243902439) * 2.0 - 1.0;
+  vec4 gradient_x = fract(h * 0.0859375) * 2.0 - 1.0;
   vec4 gradient_y = abs(gradient_x) - 0.5;
   vec4 d = gradient_x * (f.x - vec4(0.0, 1.0, 0.0, 1.0)) + gradient_y * (f.y - vec4(0.0, 0.0, 1.0, 1.0));
   vec2 fade = f * f * (3.0 - 2.0 * f);
