@@ -8,8 +8,28 @@
 namespace lapilli {
 namespace {
 
-// From here on the kernel is asked for huge pages: fewer page faults when a frame first touches its targets.
+// Bytes. A frame that first touches its targets takes one page fault for each of them.
 constexpr uint64_t kHugePage = uint64_t{2} << 20;
+
+// Whole huge pages where they add less than a quarter.
+uint64_t mapped_bytes(uint64_t size) {
+  const uint64_t whole = (size + kHugePage - 1) / kHugePage * kHugePage;
+  return whole - size <= size / 4 ? whole : size;
+}
+
+// Memory of `bytes`, aligned to huge pages if it has room for one; MAP_FAILED if there is none.
+void* map(uint64_t bytes) {
+  const uint64_t slack = bytes >= kHugePage ? kHugePage : 0;
+  void* const memory =
+      mmap(nullptr, bytes + slack, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (memory == MAP_FAILED || slack == 0) return memory;
+  std::byte* const begin = static_cast<std::byte*>(memory);
+  const uint64_t head = -reinterpret_cast<uintptr_t>(begin) % kHugePage;
+  if (head != 0) munmap(begin, head);
+  if (head != slack) munmap(begin + head + bytes, slack - head);
+  madvise(begin + head, bytes, MADV_HUGEPAGE);
+  return begin + head;
+}
 
 // Takes `size` bytes of the heap, or none.
 bool reserve(DeviceContext& device, uint64_t size) {
@@ -24,7 +44,7 @@ bool reserve(DeviceContext& device, uint64_t size) {
 
 DeviceMemory::~DeviceMemory() {
   if (data == nullptr) return;
-  munmap(data, size);
+  munmap(data, mapped);
   device.allocated_bytes -= size;
   --device.allocation_count;
 }
@@ -46,16 +66,16 @@ VkResult allocate_memory(DeviceContext& device, const VkMemoryAllocateInfo& info
                 static_cast<unsigned long long>(info.allocationSize));
     return VK_ERROR_OUT_OF_DEVICE_MEMORY;
   }
-  void* data =
-      mmap(nullptr, info.allocationSize, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  const uint64_t mapped = mapped_bytes(info.allocationSize);
+  void* const data = map(mapped);
   if (data == MAP_FAILED) {
     device.allocated_bytes -= info.allocationSize;
     --device.allocation_count;
     return VK_ERROR_OUT_OF_DEVICE_MEMORY;
   }
-  if (info.allocationSize >= kHugePage) madvise(data, info.allocationSize, MADV_HUGEPAGE);
   memory->data = static_cast<std::byte*>(data);
   memory->size = info.allocationSize;
+  memory->mapped = mapped;
   return publish(std::move(memory), handle);
 }
 

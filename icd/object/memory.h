@@ -11,7 +11,8 @@ struct DeviceMemory : Handle<DeviceMemory, VkDeviceMemory> {
 
   DeviceContext& device;
   std::byte* data = nullptr;
-  uint64_t size = 0;  // bytes
+  uint64_t mapped = 0;  // bytes, at least size
+  uint64_t size = 0;    // bytes
 };
 
 VkResult allocate_memory(DeviceContext& device, const VkMemoryAllocateInfo& info,
