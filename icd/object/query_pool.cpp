@@ -6,6 +6,9 @@
 namespace lapilli {
 namespace {
 
+// 256 MB. The specification has no limit; memory for 2^32 queries might be promised, but is not there.
+constexpr uint32_t kMaxQueries = 1u << 24;
+
 // A 32-bit result that is too small for the value wraps: the specification allows that or saturation.
 void put(std::byte* target, uint64_t index, uint64_t value, bool wide) {
   if (wide) {
@@ -34,6 +37,10 @@ VkResult create_query_pool(DeviceContext& device, const VkQueryPoolCreateInfo& i
   if (info.queryType != VK_QUERY_TYPE_OCCLUSION && info.queryType != VK_QUERY_TYPE_TIMESTAMP) {
     log_error("vkCreateQueryPool: queries of type %d are not supported", info.queryType);
     return VK_ERROR_UNKNOWN;
+  }
+  if (info.queryCount > kMaxQueries) {
+    log_error("vkCreateQueryPool: %u queries are more than the %u that a pool may have", info.queryCount, kMaxQueries);
+    return VK_ERROR_OUT_OF_HOST_MEMORY;
   }
   auto pool = make_object<QueryPool>(device.object_memory(callbacks), VK_SYSTEM_ALLOCATION_SCOPE_OBJECT, device,
                                      info.queryCount);

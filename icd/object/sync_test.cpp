@@ -77,5 +77,19 @@ TEST_F(Sync, QueryResultsInAllTheirForms) {
   EXPECT_FALSE(pool->queries[0].available);
 }
 
+TEST(Queries, AbsurdNumbersAreRefused) {
+  TestContext context;
+  VkQueryPoolCreateInfo info = {};
+  info.queryType = VK_QUERY_TYPE_OCCLUSION;
+  VkQueryPool pool = VK_NULL_HANDLE;
+  for (const uint32_t count : {UINT32_MAX, 1u << 28}) {
+    info.queryCount = count;
+    EXPECT_EQ(create_query_pool(*context.device, info, nullptr, &pool), VK_ERROR_OUT_OF_HOST_MEMORY);
+  }
+  info.queryCount = 1000;
+  ASSERT_EQ(create_query_pool(*context.device, info, nullptr, &pool), VK_SUCCESS);
+  destroy(QueryPool::from(pool));
+}
+
 }  // namespace
 }  // namespace lapilli
