@@ -101,7 +101,8 @@ void flush_pass(CommandExecutor& executor, bool end_of_subpass) {
 
   ExecutionLimits limits;
   executor.start(limits);
-  const VkResult result = executor.renderer.render(target, pass.draws, limits);
+  if (!executor.renderer) executor.renderer.emplace(executor.pool);
+  const VkResult result = executor.renderer->render(target, pass.draws, limits);
   if (result != VK_SUCCESS) {
     executor.fail(result, result == VK_ERROR_DEVICE_LOST ? "a shader ran past the time limit"
                                                          : "out of memory for a render pass");
