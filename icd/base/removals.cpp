@@ -58,6 +58,18 @@ void add_to_ledger(DrawLedger* ledger, Removal removal, uint64_t count, uint64_t
   add(ledger->lines[static_cast<size_t>(removal)].lane_ops, lane_ops);
 }
 
+void add_vertices_to_ledger(DrawLedger* ledger, uint64_t lanes, uint64_t lane_ops) {
+  if (ledger == nullptr) return;
+  add(ledger->vertices, lanes);
+  add(ledger->lane_ops_run, lane_ops);
+}
+
+void add_fragments_to_ledger(DrawLedger* ledger, uint64_t lanes, uint64_t lane_ops) {
+  if (ledger == nullptr) return;
+  add(ledger->fragments, lanes);
+  add(ledger->lane_ops_run, lane_ops);
+}
+
 void add_to_ledger(DrawLedger* ledger, uint64_t lane_ops_run) {
   if (ledger != nullptr) add(ledger->lane_ops_run, lane_ops_run);
 }

@@ -40,10 +40,14 @@ struct DrawLedger {
     uint64_t lane_ops = 0;  // what that would have cost: lanes x cost (ops.def)
   };
   Line lines[kRemovalCount];
-  uint64_t lane_ops_run = 0;  // of the programs, by the same measure
+  uint64_t vertices = 0, fragments = 0;  // lanes that the programs ran, helpers among them
+  uint64_t lane_ops_run = 0;             // by the same measure
 };
 // From any thread. A null ledger is none.
 void add_to_ledger(DrawLedger* ledger, Removal removal, uint64_t count, uint64_t lane_ops);
+// Lanes that ran a program, and what they cost.
+void add_vertices_to_ledger(DrawLedger* ledger, uint64_t lanes, uint64_t lane_ops);
+void add_fragments_to_ledger(DrawLedger* ledger, uint64_t lanes, uint64_t lane_ops);
 void add_to_ledger(DrawLedger* ledger, uint64_t lane_ops_run);
 
 }  // namespace lapilli

@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <optional>
 
 #include "base/log.h"
@@ -61,6 +62,8 @@ Environment read_environment() {
   Environment environment;
   const unsigned cpus = cpu_count();
   environment.threads = static_cast<unsigned>(positive_number("LAPILLI_THREADS", kMaxThreads).value_or(cpus));
+  const char* const stats = std::getenv("LAPILLI_STATS");
+  environment.stats = stats != nullptr && *stats != 0 && std::strcmp(stats, "0") != 0;
   if (cpus > 1) environment.spin = kSpin;
   if (const auto timeout = positive_number("LAPILLI_TIMEOUT_MS", kMaxTimeoutMs)) {
     environment.timeout = std::chrono::milliseconds(*timeout);

@@ -1,5 +1,5 @@
 // The driver's environment variables: LAPILLI_LOG, LAPILLI_THREADS, LAPILLI_SIMD, LAPILLI_TIMEOUT_MS,
-// LAPILLI_KEEP.
+// LAPILLI_KEEP, LAPILLI_STATS.
 #pragma once
 
 #include <chrono>
@@ -9,6 +9,7 @@ namespace lapilli {
 struct Environment {
   unsigned threads = 1;                      // worker threads of a device
   std::chrono::milliseconds timeout{10000};  // of one command on the queue, then the device is lost
+  bool stats = false;                        // print the ledger of every submission that draws
   // How long a thread of the driver waits awake for more to do; 0 where it would keep the only core from the others.
   std::chrono::microseconds spin{0};
 };

@@ -1,6 +1,8 @@
 // The switch over all commands.
 #include "queue/command_executor.h"
 
+#include <cstdio>
+
 #include "base/log.h"
 
 namespace lapilli {
@@ -104,7 +106,9 @@ void execute_one(CommandExecutor& executor, const Command& command) {
 }  // namespace
 
 CommandExecutor::CommandExecutor(DeviceContext& owner, ThreadPool& workers)
-    : device(owner), pool(workers), renderer(workers), arena(kArenaLimit) {}
+    : device(owner), pool(workers), arena(kArenaLimit) {
+  if (owner.physical_device.environment.stats) ledger = std::make_unique<FrameLedger>();
+}
 
 VkResult CommandExecutor::run(const CommandBuffer& buffer) {
   state = {};
@@ -114,6 +118,13 @@ VkResult CommandExecutor::run(const CommandBuffer& buffer) {
   execute_commands(*this, buffer);
   labels.clear();
   return result;
+}
+
+void CommandExecutor::print_ledger() {
+  if (ledger == nullptr || ledger->empty()) return;
+  const std::string text = ledger->text(++ledgers_printed);
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  ledger->clear();
 }
 
 void CommandExecutor::drop_blocks() {

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <chrono>
+#include <memory>
+#include <optional>
 
 #include "command/record.h"
 #include "queue/bound_state.h"
+#include "queue/frame_ledger.h"
 #include "queue/pass_state.h"
 
 namespace lapilli {
@@ -14,16 +17,20 @@ struct CommandExecutor {
 
   DeviceContext& device;
   ThreadPool& pool;
-  Renderer renderer;
+  std::optional<Renderer> renderer;  // made for the first draw
   BoundState state;
   PassState pass;
   Arena arena;                               // of the blocks of draws, until these are rendered
   uint64_t* samples_passed = nullptr;        // of the active occlusion query
+  std::unique_ptr<FrameLedger> ledger;       // null: nobody asks
   std::vector<VkDebugUtilsLabelEXT> labels;  // open in the command buffer
-  VkResult result = VK_SUCCESS;              // the first failure; nothing is executed after it
+  uint64_t ledgers_printed = 0;
+  VkResult result = VK_SUCCESS;  // the first failure; nothing is executed after it
 
   // A command buffer from its beginning to its end; bound state starts anew.
   VkResult run(const CommandBuffer& buffer);
+  // Prints what the draws since the last time were spared, if there are any.
+  void print_ledger();
   // Frees the blocks of draws: those that come make new ones.
   void drop_blocks();
   // Of one call of the renderer or of one dispatch.

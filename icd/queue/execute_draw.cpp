@@ -49,6 +49,7 @@ DrawCall* add_draw(CommandExecutor& executor, uint32_t count, uint32_t instances
   draw.count = count;
   draw.instance_count = instances;
   draw.samples_passed = executor.samples_passed;
+  if (executor.ledger != nullptr) draw.ledger = executor.ledger->add_draw(*draw.state->programs);
   return &draw;
 }
 

@@ -139,6 +139,9 @@ VkResult Queue::wait_idle() {
 }
 
 void Queue::work() {
+#if defined(__linux__)
+  pthread_setname_np(pthread_self(), "lapilli-queue");
+#endif
   const FpEnvironment environment;
   Submission* submission = nullptr;
   while ((submission = next(submission)) != nullptr) {
@@ -185,6 +188,7 @@ void Queue::execute(const Submission& submission) {
       if (device_.lost || result != VK_SUCCESS) break;
       result = executor_.run(*commands);
     }
+    executor_.print_ledger();
   } catch (const std::bad_alloc&) {
     log_error("out of memory on the queue");
     result = VK_ERROR_OUT_OF_HOST_MEMORY;

@@ -1,0 +1,80 @@
+// Sums of the draws' accounts, as text.
+#include "queue/frame_ledger.h"
+
+#include <cstdio>
+
+namespace lapilli {
+namespace {
+
+constexpr size_t kDrawsListed = 8;
+
+void add(DrawLedger& sum, const DrawLedger& draw) {
+  for (size_t i = 0; i < kRemovalCount; ++i) {
+    sum.lines[i].count += draw.lines[i].count;
+    sum.lines[i].lane_ops += draw.lines[i].lane_ops;
+  }
+  sum.vertices += draw.vertices;
+  sum.fragments += draw.fragments;
+  sum.lane_ops_run += draw.lane_ops_run;
+}
+
+template <class... Values>
+void append(std::string& text, const char* format, Values... values) {
+  char buffer[160];
+  std::snprintf(buffer, sizeof(buffer), format, values...);
+  text += buffer;
+}
+
+void append(std::string& text, const std::string& name, const DrawLedger& ledger) {
+  const auto number = [](uint64_t value) { return static_cast<unsigned long long>(value); };
+  append(text, "  %s: %llu vertices, %llu fragments, %llu lane-ops run\n", name.c_str(), number(ledger.vertices),
+         number(ledger.fragments), number(ledger.lane_ops_run));
+  for (size_t i = 0; i < kRemovalCount; ++i) {
+    const DrawLedger::Line& left_out = ledger.lines[i];
+    if (left_out.count == 0 && left_out.lane_ops == 0) continue;
+    const RemovalInfo& info = removal_info(static_cast<Removal>(i));
+    append(text, "    %-10s %14llu %-10s %18llu lane-ops\n", info.name, number(left_out.count), info.unit,
+           number(left_out.lane_ops));
+  }
+}
+
+}  // namespace
+
+FrameLedger::ProgramSavings FrameLedger::savings_of(const ProgramPtr& program) {
+  if (program == nullptr) return {};
+  return {source(*program).once.size(), once_cost(*program)};
+}
+
+DrawLedger FrameLedger::Draw::total() const {
+  DrawLedger sum = ledger;
+  DrawLedger::Line& uniforms = sum.lines[static_cast<size_t>(Removal::uniforms)];
+  uniforms.count += vertex.once_ops + fragment.once_ops;
+  uniforms.lane_ops += vertex.once_cost * sum.vertices + fragment.once_cost * sum.fragments;
+  return sum;
+}
+
+DrawLedger* FrameLedger::add_draw(const GraphicsPrograms& programs) {
+  return &draws_.emplace_back(Draw{savings_of(programs.vertex), savings_of(programs.fragment), {}}).ledger;
+}
+
+std::string FrameLedger::text(uint64_t submission) const {
+  std::string text;
+  append(text, "lapilli: ledger of submission %llu\n", static_cast<unsigned long long>(submission));
+  DrawLedger all, rest;
+  for (size_t i = 0; i < draws_.size(); ++i) {
+    const DrawLedger ledger = draws_[i].total();
+    add(all, ledger);
+    if (i < kDrawsListed) {
+      append(text, "draw " + std::to_string(i), ledger);
+    } else {
+      add(rest, ledger);
+    }
+  }
+  if (draws_.size() > kDrawsListed) {
+    append(text, "draws " + std::to_string(kDrawsListed) + " to " + std::to_string(draws_.size() - 1), rest);
+  }
+  append(text, "all " + std::to_string(draws_.size()) + " draws", all);
+  return text;
+}
+
+}  // namespace lapilli
