@@ -3,8 +3,11 @@
 // (FrontEnd::next).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "geometry/draw_call.h"
@@ -24,9 +27,50 @@ struct PixelRect {
 };
 PixelRect intersect(const PixelRect& a, const PixelRect& b);
 
+// A growing array of plain data that neither clears what it adds nor gives memory back before release().
+template <class T>
+class BinArray {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+ public:
+  size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  T* data() { return data_.get(); }
+  const T* data() const { return data_.get(); }
+  T& operator[](size_t i) { return data_[i]; }
+  const T& operator[](size_t i) const { return data_[i]; }
+  const T* begin() const { return data_.get(); }
+  const T* end() const { return data_.get() + size_; }
+  uint64_t capacity_bytes() const { return capacity_ * sizeof(T); }
+
+  void clear() { size_ = 0; }
+  void release() { *this = BinArray(); }
+  void reserve(size_t size) {
+    if (size <= capacity_) return;
+    const size_t capacity = std::max(size, capacity_ + capacity_ / 2);
+    std::unique_ptr<T[]> data(new T[capacity]);
+    std::copy_n(data_.get(), size_, data.get());
+    data_ = std::move(data);
+    capacity_ = capacity;
+  }
+  // What is new has no value yet.
+  void resize(size_t size) {
+    reserve(size);
+    size_ = size;
+  }
+  void push_back(const T& value) {
+    if (size_ == capacity_) reserve(size_ + 64);
+    data_[size_++] = value;
+  }
+
+ private:
+  std::unique_ptr<T[]> data_;
+  size_t size_ = 0, capacity_ = 0;
+};
+
 // A vertex in framebuffer space. Triangles that share it share this.
 struct BinVertex {
-  int32_t x, y;  // 24.8 fixed point, at most kGuardBand pixels from (0, 0)
+  int32_t x, y;  // 24.8 fixed point, at most kGuardBand pixels from (0, 0); those of no triangle may hold anything
   double z;      // without depth bias
   float inverse_w;
   uint32_t varyings;  // its first component in BinChunk::varyings
@@ -56,14 +100,14 @@ static_assert(sizeof(BinTriangle) == 16);
 // The triangles of some consecutive primitives.
 struct BinChunk {
   std::vector<BinRun> runs;
-  std::vector<BinVertex> vertices;
-  std::vector<float> varyings;
-  std::vector<BinTriangle> triangles;
+  BinArray<BinVertex> vertices;
+  BinArray<float> varyings;
+  BinArray<BinTriangle> triangles;
   std::vector<uint32_t> tile_first;  // [tile] first entry of the tile in `references`; one more at the end
-  std::vector<uint32_t> references;  // indices into triangles, grouped by tile, in primitive order
+  BinArray<uint32_t> references;     // indices into triangles, grouped by tile, in primitive order
 
   std::span<const uint32_t> tile(uint32_t index) const {
-    return std::span(references).subspan(tile_first[index], tile_first[index + 1] - tile_first[index]);
+    return {references.begin() + tile_first[index], references.begin() + tile_first[index + 1]};
   }
   const BinRun& run_of(const BinTriangle& triangle) const { return runs[triangle.run_index()]; }
 };

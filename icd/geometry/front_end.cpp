@@ -8,21 +8,59 @@
 namespace lapilli {
 namespace {
 
-constexpr uint32_t kChunkTriangles = 1024;
-// 256 chunks of 1,024 triangles with a few varyings take about 64 to 100 MB.
-constexpr uint32_t kChunksPerSet = 256;
-// A triangle may be listed in every tile: large framebuffers get smaller chunks, so that a chunk's lists stay under 4
+// A chunk is large enough to share the vertices of a few rows of a grid, and small enough for its vertices to be named
+// with 16 bits even if all triangles are clipped.
+constexpr uint32_t kChunkTriangles = 4096;
+static_assert(kChunkTriangles * 3 <= VertexStage::kMostVertices);
+static_assert(kChunkTriangles * (3 + kMaxClippedVertices) <= 1u << 16);
+// Small passes are cut into about this many, so that there is work for all threads.
+constexpr uint32_t kLeastChunks = 32;
+constexpr uint32_t kLeastChunkTriangles = 256;
+// What a work item costs beside its triangles, in triangles.
+constexpr uint32_t kItemCost = 8;
+// A triangle may be listed in every tile: large framebuffers get smaller chunks, so that a chunk's lists stay under 8
 // MB.
-constexpr uint32_t kMaxListEntries = 1u << 20;
+constexpr uint32_t kMaxListEntries = 1u << 21;
+// Planned at once.
+constexpr size_t kMostPlans = 1024;
+constexpr size_t kMostItems = 1u << 16;
 
-bool draws_nothing(const DrawCall& draw) {
-  return draw.state->raster.rasterizer_discard || draw.state->programs->fragment == nullptr ||
-         !is_triangle_topology(draw.state->raster.topology) || draw.instance_count == 0;
+bool has_effect(const DrawCall& draw) {
+  const GraphicsPrograms& programs = *draw.state->programs;
+  if (draw.instance_count == 0 || draw.state->raster.rasterizer_discard || programs.fragment == nullptr) return false;
+  const bool counts = draw.samples_passed != nullptr;
+  return !programs.fragment_reads_nothing || programs.depth_write || counts;
+}
+
+bool same_blocks(const DrawCall& a, const DrawCall& b) {
+  return a.state == b.state && a.bindings == b.bindings && a.resources == b.resources;
+}
+
+bool has_distinct_vertices(const DrawCall& draw) {
+  return draw.indices.data == nullptr && draw.state->raster.topology == VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+}
+
+uint64_t count_triangles(const DrawCall& draw) {
+  uint64_t sum = 0;
+  VertexRun run;
+  for (uint32_t position = 0; next_run(draw, position, run);) {
+    sum += triangle_count(draw.state->raster.topology, run.count);
+  }
+  return sum * draw.instance_count;
 }
 
 }  // namespace
 
-FrontEnd::FrontEnd(ThreadPool& pool) : pool_(pool), stages_(pool.size()) {}
+struct FrontEnd::Worker {
+  VertexStage stage;
+  BinArray<uint32_t> corners, runs;  // TriangleList
+  std::vector<uint32_t> removed;     // [run]
+};
+
+FrontEnd::FrontEnd(ThreadPool& pool) : pool_(pool) {
+  for (unsigned i = 0; i < pool.size(); ++i) workers_.push_back(std::make_unique<Worker>());
+}
+FrontEnd::~FrontEnd() = default;
 
 void FrontEnd::begin(std::span<const DrawCall> draws, const TileGrid& grid, const PixelRect& area,
                      ExecutionLimits& limits) {
@@ -30,128 +68,172 @@ void FrontEnd::begin(std::span<const DrawCall> draws, const TileGrid& grid, cons
   grid_ = grid;
   area_ = area;
   limits_ = &limits;
-  chunk_triangles_ = std::clamp(kMaxListEntries / std::max(grid.count(), 1u), 16u, kChunkTriangles);
+  uint64_t vertices = 0;
+  for (const DrawCall& draw : draws) vertices += uint64_t{draw.count} * draw.instance_count;
+  chunk_triangles_ =
+      static_cast<uint32_t>(std::clamp<uint64_t>(vertices / 3 / kLeastChunks, kLeastChunkTriangles, kChunkTriangles));
+  chunk_triangles_ = std::min(chunk_triangles_, std::max(kMaxListEntries / std::max(grid.count(), 1u), 16u));
+  plans_.clear();
+  done_plans_ = 0;
+  known_state_ = nullptr;
   draw_ = 0;
   enter_draw();
 }
 
-// Moves on to the next draw with a triangle in it: one without may still have 2^32 instances.
-void FrontEnd::enter_draw() {
-  instance_ = run_ = triangle_ = 0;
-  for (; draw_ < draws_.size(); ++draw_) {
-    const DrawCall& draw = draws_[draw_];
-    if (draws_nothing(draw)) continue;
-    split_runs(draw, runs_);
-    const auto has_triangle = [&](const VertexRun& run) {
-      return triangle_count(draw.state->raster.topology, run.count) > 0;
-    };
-    if (std::any_of(runs_.begin(), runs_.end(), has_triangle)) return;
+// Whether nobody can tell that the draw is missing.
+bool FrontEnd::may_skip(const DrawCall& draw) {
+  if (!has_effect(draw) || !is_triangle_topology(draw.state->raster.topology)) return true;
+  if (known_state_ != draw.state) {
+    known_state_ = draw.state;
+    const SetupState state = make_setup_state(*draw.state, area_);
+    state_has_no_pixel_ =
+        (state.rect.empty() || !(state.keep_clockwise || state.keep_counterclockwise)) && !keeps(Removal::triangles);
   }
+  if (state_has_no_pixel_ && draw.ledger != nullptr) {
+    add_to_ledger(draw.ledger, Removal::triangles, count_triangles(draw), 0);
+  }
+  return state_has_no_pixel_;
 }
 
-// The next up to `most` triangles; false at the end of the pass.
-bool FrontEnd::take_triangles(uint32_t most, WorkItem& item) {
+void FrontEnd::enter_draw() {
+  while (draw_ < draws_.size() && may_skip(draws_[draw_])) ++draw_;
+  instance_ = after_run_ = triangle_ = run_triangles_ = 0;
+  has_triangles_ = false;
+}
+
+// Moves on to the next triangle that is not planned yet; false at the end of the pass.
+bool FrontEnd::seek_triangle() {
   while (draw_ < draws_.size()) {
-    if (run_ == runs_.size()) {
-      run_ = 0;
-      ++instance_;
-    }
-    if (instance_ >= draws_[draw_].instance_count) {
+    if (triangle_ < run_triangles_) return true;
+    const DrawCall& draw = draws_[draw_];
+    if (next_run(draw, after_run_, run_)) {
+      triangle_ = 0;
+      run_triangles_ = triangle_count(draw.state->raster.topology, run_.count);
+      has_triangles_ |= run_triangles_ > 0;
+    } else if (has_triangles_ && ++instance_ < draw.instance_count) {
+      after_run_ = 0;
+    } else {  // a draw without a triangle may still have 2^32 instances
       ++draw_;
       enter_draw();
-      continue;
     }
-    const uint32_t all = triangle_count(draws_[draw_].state->raster.topology, runs_[run_].count);
-    if (triangle_ == all) {
-      ++run_;
-      triangle_ = 0;
-      continue;
-    }
-    item = {draw_, instance_, runs_[run_], triangle_, std::min(most, all - triangle_)};
-    triangle_ += item.triangles;
-    return true;
   }
   return false;
 }
 
 bool FrontEnd::plan_chunk() {
-  Chunk plan{static_cast<uint32_t>(items_.size()), 0};
-  uint32_t room = chunk_triangles_;
-  WorkItem item;
-  while (room > 0 && take_triangles(room, item)) {
-    items_.push_back(item);
-    room -= item.triangles;
+  const uint32_t first_item = static_cast<uint32_t>(items_.size());
+  for (uint32_t room = chunk_triangles_; room > 0 && seek_triangle();) {
+    const uint32_t triangles = std::min(room, run_triangles_ - triangle_);
+    items_.push_back({draw_, instance_, run_, triangle_, triangles});
+    triangle_ += triangles;
+    room -= std::min(room, triangles + kItemCost);
   }
-  plan.last_item = static_cast<uint32_t>(items_.size());
-  if (plan.first_item == plan.last_item) return false;
-  plans_.push_back(plan);
+  if (first_item == items_.size()) return false;
+  plans_.push_back({first_item, static_cast<uint32_t>(items_.size())});
   return true;
 }
 
-bool FrontEnd::next(BinSet& set) {
+void FrontEnd::plan() {
   items_.clear();
   plans_.clear();
-  while (plans_.size() < kChunksPerSet && plan_chunk()) {
+  done_plans_ = 0;
+  while (plans_.size() < kMostPlans && items_.size() < kMostItems && plan_chunk()) {
   }
   if (chunks_.size() < plans_.size()) chunks_.resize(plans_.size());
+}
 
+bool FrontEnd::next(BinSet& set) {
+  if (done_plans_ == plans_.size()) plan();
+  const size_t left = plans_.size() - done_plans_;
+  // Who finds that there is room takes the next chunk and fills it whatever happens: the chunks that are filled are the
+  // first ones.
+  std::atomic<size_t> taken{0};
+  std::atomic<uint64_t> bytes{0};
   std::atomic<bool> failed{false};
-  pool_.parallel_for(plans_.size(), [&](size_t i, unsigned worker) {
+  pool_.parallel_for(left, [&](size_t, unsigned worker) {
+    if (bytes.load(std::memory_order_relaxed) >= kSetBytes) return;
+    const size_t i = taken.fetch_add(1, std::memory_order_relaxed);
     try {
-      fill(plans_[i], stages_[worker], chunks_[i]);
+      fill(plans_[done_plans_ + i], *workers_[worker], chunks_[i]);
     } catch (const std::bad_alloc&) {
       failed.store(true, std::memory_order_relaxed);
     }
+    bytes.fetch_add(memory_of(chunks_[i]), std::memory_order_relaxed);
   });
-  set.chunks = std::span(chunks_).first(plans_.size());
-  set.last = draw_ >= draws_.size();
+  const size_t filled = taken.load(std::memory_order_relaxed);
+  // A full set takes all the memory that there is for bins.
+  if (filled < left) std::for_each(chunks_.begin() + static_cast<ptrdiff_t>(filled), chunks_.end(), release_chunk);
+  done_plans_ += filled;
+  set.chunks = std::span(chunks_).first(filled);
+  set.last = done_plans_ == plans_.size() && !seek_triangle();
   return !failed.load(std::memory_order_relaxed);
 }
 
-void FrontEnd::fill(const Chunk& plan, VertexStage& stage, BinChunk& out) {
+void FrontEnd::fill(const Chunk& plan, Worker& worker, BinChunk& out) {
   clear_chunk(out);
-  struct Slots {
-    uint32_t v[3];
-  };
-  std::vector<Slots> triangles;
-
-  for (uint32_t i = plan.first_item; i < plan.last_item;) {
-    // All items of one draw share vertex batches.
-    const uint32_t draw_index = items_[i].draw;
-    const DrawCall& draw = draws_[draw_index];
-    const SetupState state = make_setup_state(draw, draw_index, area_);
-    if (!stage.begin(draw, *limits_)) throw std::bad_alloc();
-    triangles.clear();
-    uint32_t instance = 0;
-    for (bool first = true; i < plan.last_item && items_[i].draw == draw_index; ++i, first = false) {
-      const WorkItem& item = items_[i];
-      if (first || item.instance != instance) stage.begin_instance(instance = item.instance);
-      for (uint32_t t = item.first_triangle; t < item.first_triangle + item.triangles; ++t) {
-        const TrianglePositions positions = triangle_positions(draw.state->raster.topology, t);
-        Slots slots;
-        for (int v = 0; v < 3; ++v) {
-          uint32_t index = item.run.first + positions.v[v];
-          if (draw.indices.data != nullptr) {
-            index = read_index(draw.indices, uint64_t{item.run.first} + positions.v[v]) +
-                    static_cast<uint32_t>(draw.vertex_offset);
-          }
-          slots.v[v] = stage.add(index);
-        }
-        triangles.push_back(slots);
-      }
-    }
-    begin_run(state, out);
-    stage.run(state, out);
-    for (const Slots& slots : triangles) {
-      TriangleVertices vertices;
-      for (int v = 0; v < 3; ++v) {
-        vertices.vertex[v] = &stage.vertex(slots.v[v]);
-        vertices.index[v] = stage.first_vertex() + slots.v[v];
-      }
-      set_up_triangle(state, vertices, out);
-    }
+  for (uint32_t first = plan.first_item; first < plan.last_item;) {
+    uint32_t last = first + 1;
+    while (last < plan.last_item && same_blocks(draws_[items_[first].draw], draws_[items_[last].draw])) ++last;
+    fill_group(std::span(items_).subspan(first, last - first), worker, out);
+    first = last;
   }
   finish_chunk(grid_, out);
+}
+
+// Triangles of draws with the same state, bindings and resources: they share batches of vertices, and the vertices
+// themselves where index and instance are the same.
+void FrontEnd::fill_group(std::span<const WorkItem> items, Worker& worker, BinChunk& out) {
+  const DrawCall& blocks = draws_[items[0].draw];
+  const SetupState state = make_setup_state(*blocks.state, area_);
+  VertexStage& stage = worker.stage;
+  if (!stage.begin(blocks, *limits_)) throw std::bad_alloc();
+  const bool keep_vertices = keeps(Removal::vertices);
+  const uint64_t vertex_cost = lane_cost(*blocks.state->programs->vertex);
+
+  TriangleList list;
+  for (const WorkItem& item : items) list.count += item.triangles;
+  worker.corners.resize((list.count + TriangleList::kPadding) * size_t{3});
+  worker.runs.resize(list.count + TriangleList::kPadding);
+  uint32_t* corners = worker.corners.data();
+  uint32_t* runs = worker.runs.data();
+  const size_t first_run = out.runs.size();
+  bool any_ledger = false;
+  for (const WorkItem& item : items) {
+    const DrawCall& draw = draws_[item.draw];
+    if (out.runs.size() == first_run || out.runs.back().draw != item.draw) begin_run(state, item.draw, out);
+    const std::span<uint32_t> vertices{corners, size_t{3} * item.triangles};
+    assemble_triangles(draw, item.run, item.first_triangle, vertices);
+    const uint32_t instance = draw.first_instance + item.instance;
+    size_t run = vertices.size();
+    if (keep_vertices || has_distinct_vertices(draw)) {
+      stage.add_distinct(instance, vertices);
+    } else {
+      run = stage.add(instance, vertices);
+    }
+    if (draw.ledger != nullptr) {
+      any_ledger = true;
+      add_to_ledger(draw.ledger, run * vertex_cost);
+      add_to_ledger(draw.ledger, Removal::vertices, vertices.size() - run, (vertices.size() - run) * vertex_cost);
+    }
+    corners += vertices.size();
+    runs = std::fill_n(runs, item.triangles, static_cast<uint32_t>(out.runs.size() - 1));
+  }
+  std::fill_n(corners, 3 * TriangleList::kPadding, 0u);
+  std::fill_n(runs, TriangleList::kPadding, 0u);
+
+  list.corners = worker.corners.data();
+  list.runs = worker.runs.data();
+  list.first_vertex = static_cast<uint32_t>(out.vertices.size());
+  stage.run(state, out);
+  list.positions = stage.positions();
+  if (any_ledger) {
+    worker.removed.assign(out.runs.size(), 0);
+    list.removed = worker.removed.data();
+  }
+  append_triangles(state, list, out);
+  for (size_t i = first_run; any_ledger && i < out.runs.size(); ++i) {
+    add_to_ledger(draws_[out.runs[i].draw].ledger, Removal::triangles, worker.removed[i], 0);
+  }
 }
 
 }  // namespace lapilli

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -13,9 +14,13 @@
 
 namespace lapilli {
 
+// Bins of a set: it ends with the chunk that exceeds this. Each set costs a load and a store of the tiles.
+constexpr uint64_t kSetBytes = 48u << 20;
+
 class FrontEnd {
  public:
   explicit FrontEnd(ThreadPool& pool);
+  ~FrontEnd();
 
   // Starts a pass. `area`: pixels that may be drawn to, inside [0, 64*columns) x [0, 64*rows).
   void begin(std::span<const DrawCall> draws, const TileGrid& grid, const PixelRect& area, ExecutionLimits& limits);
@@ -33,11 +38,15 @@ class FrontEnd {
   struct Chunk {
     uint32_t first_item, last_item;  // [first, last) in items_
   };
+  struct Worker;
 
-  void enter_draw();
+  void plan();
   bool plan_chunk();
-  bool take_triangles(uint32_t most, WorkItem& item);
-  void fill(const Chunk& plan, VertexStage& stage, BinChunk& out);
+  bool seek_triangle();
+  void enter_draw();
+  bool may_skip(const DrawCall& draw);
+  void fill(const Chunk& plan, Worker& worker, BinChunk& out);
+  void fill_group(std::span<const WorkItem> items, Worker& worker, BinChunk& out);
 
   ThreadPool& pool_;
   std::span<const DrawCall> draws_;
@@ -46,14 +55,21 @@ class FrontEnd {
   ExecutionLimits* limits_ = nullptr;
   uint32_t chunk_triangles_ = 0;
 
-  // Where the next work item starts.
-  uint32_t draw_ = 0, instance_ = 0, run_ = 0, triangle_ = 0;
-  std::vector<VertexRun> runs_;
+  // Where the next work item starts: a triangle of a run of an instance of a draw.
+  uint32_t draw_ = 0, instance_ = 0;
+  uint32_t after_run_ = 0;  // next_run's position
+  VertexRun run_;
+  uint32_t triangle_ = 0, run_triangles_ = 0;
+  bool has_triangles_ = false;  // the draw, as far as it is known
+  // The state asked for last: whether none of its triangles has a pixel.
+  const DrawState* known_state_ = nullptr;
+  bool state_has_no_pixel_ = false;
 
   std::vector<WorkItem> items_;
   std::vector<Chunk> plans_;
+  size_t done_plans_ = 0;
   std::vector<BinChunk> chunks_;
-  std::vector<VertexStage> stages_;  // one per worker
+  std::vector<std::unique_ptr<Worker>> workers_;
 };
 
 }  // namespace lapilli

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+#include <span>
 
 #include "geometry/draw_call.h"
 
@@ -12,7 +12,7 @@ namespace lapilli {
 // Vertices of a draw between two primitive restarts: positions [first, first + count) in the index buffer, or vertex
 // numbers.
 struct VertexRun {
-  uint32_t first = 0;
+  uint64_t first = 0;
   uint32_t count = 0;
 };
 
@@ -21,16 +21,16 @@ bool is_triangle_topology(VkPrimitiveTopology topology);
 // Complete triangles in a run.
 uint32_t triangle_count(VkPrimitiveTopology topology, uint32_t vertices);
 
-// Positions, within a run, of the vertices of triangle `i`; the provoking vertex comes first, the winding is kept.
-struct TrianglePositions {
-  uint32_t v[3];
-};
-TrianglePositions triangle_positions(VkPrimitiveTopology topology, uint32_t i);
+// The runs of a draw, one after the other: one, or as many as primitive restart makes. `position`: where to go on,
+// relative to draw.first; 0 at the start. False: there are no more.
+bool next_run(const DrawCall& draw, uint32_t& position, VertexRun& run);
 
-// The index at a position of the index buffer, as 32 bits; 0 outside of the buffer (robustBufferAccess).
-uint32_t read_index(const IndexBuffer& indices, uint64_t position);
+// The indices at positions [first, first + out.size()) of the index buffer, as 32 bits; 0 outside of the buffer
+// (robustBufferAccess).
+void read_indices(const IndexBuffer& indices, uint64_t first, std::span<uint32_t> out);
 
-// The runs of a draw: one, or as many as primitive restart makes.
-void split_runs(const DrawCall& draw, std::vector<VertexRun>& runs);
+// Vertex indices (vertexOffset or firstVertex included) of triangles [first, first + out.size() / 3) of a run, three
+// for each; the provoking vertex comes first, the winding is kept.
+void assemble_triangles(const DrawCall& draw, const VertexRun& run, uint32_t first, std::span<uint32_t> out);
 
 }  // namespace lapilli

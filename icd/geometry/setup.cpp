@@ -1,4 +1,5 @@
-// Triangle setup: snapping, facing and culling. The oracle in conformance/ states the rules independently.
+// What triangle setup does per draw, and for triangles that have to be clipped. The oracle in conformance/ states the
+// rules independently.
 #include "geometry/setup.h"
 
 #include <algorithm>
@@ -22,18 +23,26 @@ PixelRect pixel_bounds(const BinVertex& p, const BinVertex& q, const BinVertex& 
   return {(min_x + 127) >> 8, (min_y + 127) >> 8, ((max_x - 128) >> 8) + 1, ((max_y - 128) >> 8) + 1};
 }
 
+// Bounds for a triangle without a pixel in `rect`: pixels of it that the triangle does not touch.
+PixelRect nearest_pixel(const PixelRect& bounds, const PixelRect& rect) {
+  const int32_t x0 = std::clamp(bounds.x0, rect.x0, rect.x1 - 1);
+  const int32_t y0 = std::clamp(bounds.y0, rect.y0, rect.y1 - 1);
+  return {x0, y0, std::clamp(bounds.x1, x0 + 1, rect.x1), std::clamp(bounds.y1, y0 + 1, rect.y1)};
+}
+
 // The triangle of three of the chunk's vertices, unless it has no pixel.
-void append_triangle(const SetupState& state, const uint32_t (&index)[3], bool front, BinChunk& chunk) {
+void append_triangle(const SetupState& state, const uint32_t (&index)[3], uint32_t run, bool front, BinChunk& chunk) {
   const BinVertex& p = chunk.vertices[index[0]];
   const BinVertex& q = chunk.vertices[index[1]];
   const BinVertex& r = chunk.vertices[index[2]];
   const int64_t area = area2(p, q, r);
   if (area == 0) return;
-  const PixelRect bounds = intersect(pixel_bounds(p, q, r), state.rect);
-  if (bounds.empty()) return;
+  PixelRect bounds = intersect(pixel_bounds(p, q, r), state.rect);
+  if (bounds.empty()) {
+    if (!keeps(Removal::triangles) || state.rect.empty()) return;
+    bounds = nearest_pixel(bounds, state.rect);
+  }
   const bool turn = area < 0;
-  const size_t run = chunk.runs.size() - 1;
-  assert(run < BinTriangle::kFrontFacing);
   chunk.triangles.push_back({{static_cast<uint16_t>(index[0]), static_cast<uint16_t>(index[turn ? 2 : 1]),
                               static_cast<uint16_t>(index[turn ? 1 : 2])},
                              static_cast<uint16_t>(run | (front ? BinTriangle::kFrontFacing : 0u)),
@@ -56,7 +65,7 @@ float mix(const ClipPoint& point, const float* const (&values)[3], uint32_t k, I
 }
 
 // Appends a corner of the clipped polygon to the chunk's vertices; returns its index.
-uint32_t append_corner(const SetupState& state, const ClipPoint& point, const TriangleVertices& vertices,
+uint32_t append_corner(const SetupState& state, const ClipPoint& point, const uint32_t (&vertices)[3],
                        BinChunk& chunk) {
   const double w = point.position[3];
   BinVertex corner;
@@ -72,7 +81,7 @@ uint32_t append_corner(const SetupState& state, const ClipPoint& point, const Tr
   const size_t count = state.varyings.size();
   chunk.varyings.resize(chunk.varyings.size() + count);
   const float* values[3];
-  for (int i = 0; i < 3; ++i) values[i] = chunk.varyings.data() + chunk.vertices[vertices.index[i]].varyings;
+  for (int i = 0; i < 3; ++i) values[i] = chunk.varyings.data() + chunk.vertices[vertices[i]].varyings;
   for (uint32_t k = 0; k < count; ++k) {
     chunk.varyings[corner.varyings + k] = mix(point, values, k, state.varyings[k]);
   }
@@ -97,8 +106,7 @@ PixelRect intersect(const PixelRect& a, const PixelRect& b) {
   return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
 }
 
-SetupState make_setup_state(const DrawCall& draw, uint32_t draw_index, const PixelRect& area) {
-  const DrawState& bound = *draw.state;
+SetupState make_setup_state(const DrawState& bound, const PixelRect& area) {
   const VkViewport& viewport = bound.viewport;
   SetupState state{};
   state.half_width = viewport.width / 2;
@@ -126,90 +134,58 @@ SetupState make_setup_state(const DrawCall& draw, uint32_t draw_index, const Pix
                              static_cast<int32_t>(std::min<int64_t>(scissor_y1, INT32_MAX))};
   state.rect = intersect(intersect(inside, scissor), area);
 
-  state.cull_front = (bound.raster.cull_mode & VK_CULL_MODE_FRONT_BIT) != 0;
-  state.cull_back = (bound.raster.cull_mode & VK_CULL_MODE_BACK_BIT) != 0;
+  const bool keep_front = (bound.raster.cull_mode & VK_CULL_MODE_FRONT_BIT) == 0;
+  const bool keep_back = (bound.raster.cull_mode & VK_CULL_MODE_BACK_BIT) == 0;
   state.front_is_clockwise = bound.raster.front_face == VK_FRONT_FACE_CLOCKWISE;
+  state.keep_clockwise = state.front_is_clockwise ? keep_front : keep_back;
+  state.keep_counterclockwise = state.front_is_clockwise ? keep_back : keep_front;
   state.depth_bias = bound.raster.depth_bias;
   state.bias_constant = bound.raster.depth_bias_constant;
   state.bias_clamp = bound.raster.depth_bias_clamp;
   state.bias_slope = bound.raster.depth_bias_slope;
   state.varyings = bound.programs->varyings;
-  state.draw = draw_index;
   return state;
 }
 
-PostVertex append_vertex(const SetupState& state, const float* outputs, BinChunk& chunk) {
-  PostVertex post;
-  for (size_t i = 0; i < 4; ++i) post.clip[i] = outputs[(kSlotPosition + i) * kBatchLanes];
-  BinVertex& vertex = chunk.vertices.emplace_back();
-  vertex.varyings = static_cast<uint32_t>(chunk.varyings.size());
-  for (size_t k = 0; k < state.varyings.size(); ++k) {
-    chunk.varyings.push_back(outputs[(kSlotVaryings + k) * kBatchLanes]);
-  }
-  const auto [x, y, z, w] = post.clip;
-  // x - x is 0 for finite values only.
-  if ((x - x) + (y - y) + (z - z) + (w - w) != 0) {
-    post.kind = VertexClass::dropped;
-    return post;
-  }
-  post.kind = VertexClass::needs_clipping;
-  if (!(w > 0) || (state.clip_depth && !(z >= 0 && z <= w))) return post;
-  const float screen_x = x / w * state.half_width + state.centre_x;
-  const float screen_y = y / w * state.half_height + state.centre_y;
-  const float limit = static_cast<float>(kGuardBand);
-  if (!(std::fabs(screen_x) <= limit && std::fabs(screen_y) <= limit)) return post;
-  post.kind = VertexClass::inside;
-  vertex.x = snap(static_cast<double>(screen_x));
-  vertex.y = snap(static_cast<double>(screen_y));
-  vertex.z = static_cast<double>(z) / static_cast<double>(w) * state.depth_scale + state.depth_offset;
-  vertex.inverse_w = 1.0f / w;
-  return post;
-}
-
-void begin_run(const SetupState& state, BinChunk& chunk) {
-  chunk.runs.push_back({state.draw, state.varyings, state.min_depth, state.max_depth, state.depth_bias,
+void begin_run(const SetupState& state, uint32_t draw_index, BinChunk& chunk) {
+  assert(chunk.runs.size() < BinTriangle::kFrontFacing);
+  chunk.runs.push_back({draw_index, state.varyings, state.min_depth, state.max_depth, state.depth_bias,
                         state.bias_constant, state.bias_clamp, state.bias_slope});
 }
 
-void clear_chunk(BinChunk& chunk) {
-  chunk.runs.clear();
-  chunk.vertices.clear();
-  chunk.varyings.clear();
-  chunk.triangles.clear();
-}
-
-void set_up_triangle(const SetupState& state, const TriangleVertices& vertices, BinChunk& chunk) {
-  if (state.rect.empty()) return;
-  bool clip = false;
-  for (const PostVertex* vertex : vertices.vertex) {
-    if (vertex->kind == VertexClass::dropped) return;
-    clip |= vertex->kind == VertexClass::needs_clipping;
+void clip_and_append(const SetupState& state, const TriangleList& list, uint32_t index, BinChunk& chunk) {
+  const uint32_t* const slots = list.corners + 3 * size_t{index};
+  uint32_t vertices[3];
+  int32_t in_common = ~0, any = 0;
+  for (int v = 0; v < 3; ++v) {
+    vertices[v] = list.first_vertex + slots[v];
+    const BinVertex& vertex = chunk.vertices[vertices[v]];
+    const int32_t code = vertex.x == kNotInside ? vertex.y : 0;
+    in_common &= code;
+    any |= code;
   }
+  if (in_common != 0 || (any & kOutInvalid) != 0 || state.rect.empty()) return;
 
+  float positions[3][4];
+  for (uint32_t v = 0; v < 3; ++v) {
+    for (uint32_t i = 0; i < 4; ++i) positions[v][i] = list.positions.get(slots[v], i);
+  }
+  ClipPoint polygon[kMaxClippedVertices];
+  const uint32_t count = clip_triangle(state.clip_space, positions, polygon);
   uint32_t corners[kMaxClippedVertices];
-  uint32_t count = 3;
-  if (clip) {
-    float positions[3][4];
-    for (int v = 0; v < 3; ++v) std::copy_n(vertices.vertex[v]->clip, 4, positions[v]);
-    ClipPoint polygon[kMaxClippedVertices];
-    count = clip_triangle(state.clip_space, positions, polygon);
-    for (uint32_t i = 0; i < count; ++i) corners[i] = append_corner(state, polygon[i], vertices, chunk);
-  } else {
-    std::copy_n(vertices.index, 3, corners);
-  }
+  for (uint32_t i = 0; i < count; ++i) corners[i] = append_corner(state, polygon[i], vertices, chunk);
 
   const auto part = [&](uint32_t i) {
     return area2(chunk.vertices[corners[0]], chunk.vertices[corners[i - 1]], chunk.vertices[corners[i]]);
   };
   int64_t area = 0;
   for (uint32_t i = 2; i < count; ++i) area += part(i);
-  if (area == 0) return;
+  if (area == 0 || !(area > 0 ? state.keep_clockwise : state.keep_counterclockwise)) return;
   const bool front = (area > 0) == state.front_is_clockwise;
-  if (front ? state.cull_front : state.cull_back) return;
   for (uint32_t i = 2; i < count; ++i) {
     // Snapping can turn a sliver of the fan around; what it covers belongs to its neighbours.
     if (count > 3 && (part(i) > 0) != (area > 0)) continue;
-    append_triangle(state, {corners[0], corners[i - 1], corners[i]}, front, chunk);
+    append_triangle(state, {corners[0], corners[i - 1], corners[i]}, list.runs[index], front, chunk);
   }
 }
 

@@ -1,4 +1,4 @@
-// From three vertices to a BinTriangle: snapping, facing and culling, edge functions, depth and attribute differences.
+// From the vertex program's outputs to BinTriangles: viewport transformation, snapping, clipping, facing and culling.
 // Specification: chapter "Rasterization", Polygons; "Fixed-Function Vertex Post-Processing", Controlling the Viewport.
 #pragma once
 
@@ -18,40 +18,71 @@ struct SetupState {
   double depth_scale, depth_offset;  // z_f = z/w * scale + offset
   float min_depth, max_depth;        // clamp range of the interpolated depth
   PixelRect rect;                    // scissor, viewport rectangle, render area: pixels that may be written
-  bool cull_front, cull_back, front_is_clockwise;
+  bool front_is_clockwise;
+  bool keep_clockwise, keep_counterclockwise;  // on the screen (y down); the others are culled
   bool clip_depth;
   bool depth_bias;
   float bias_constant, bias_clamp, bias_slope;
   std::span<const Interpolation> varyings;
-  uint32_t draw;
 };
-SetupState make_setup_state(const DrawCall& draw, uint32_t draw_index, const PixelRect& area);
-
-enum class VertexClass : uint8_t { inside, needs_clipping, dropped };
-
-// A vertex after the vertex program and the viewport transformation.
-struct PostVertex {
-  float clip[4];
-  VertexClass kind;
-};
-
-// Transforms one lane of a vertex program's outputs ([slot][kBatchLanes]) and appends it to the chunk's vertices, with
-// its varyings; x, y, z and 1/w have no meaning unless it is inside.
-PostVertex append_vertex(const SetupState& state, const float* outputs, BinChunk& chunk);
-
-// Appends what is left of a triangle after clipping and culling: none, one or several triangles of the last run.
-// [0] is the provoking vertex; `index`: in the chunk's vertices.
-struct TriangleVertices {
-  const PostVertex* vertex[3];
-  uint32_t index[3];
-};
-void set_up_triangle(const SetupState& state, const TriangleVertices& vertices, BinChunk& chunk);
+SetupState make_setup_state(const DrawState& draw, const PixelRect& area);
 
 // Starts the triangles of a draw.
-void begin_run(const SetupState& state, BinChunk& chunk);
-// Empties it; keeps its memory.
+void begin_run(const SetupState& state, uint32_t draw_index, BinChunk& chunk);
+
+// --- vertices
+
+// The x of a BinVertex that did not come out inside of the guard band and the depth range; its y then tells why, as
+// OutCode bits: a triangle whose vertices have one in common has no pixel.
+constexpr int32_t kNotInside = INT32_MIN;
+enum OutCode : int32_t {
+  kOutNear = 1,
+  kOutFar = 2,
+  kOutInvalid = 4,  // not finite: every triangle with it is dropped
+};
+
+// Vertices as the vertex program gave them: [batch][x y z w][lane].
+struct ClipPositions {
+  static constexpr size_t kBatchFloats = 4 * kBatchLanes;
+  const float* all = nullptr;
+  float get(uint32_t vertex, uint32_t component) const {
+    return all[vertex / kBatchLanes * kBatchFloats + component * kBatchLanes + vertex % kBatchLanes];
+  }
+};
+
+// Transforms the first `lanes` lanes of a vertex program's outputs ([slot][kBatchLanes]) and appends them to the
+// chunk's vertices, with their varyings. For all SIMD targets the same bits as x / w * half_width + centre_x … lane by
+// lane.
+void append_vertices(const SetupState& state, const float* outputs, uint32_t lanes, BinChunk& chunk);
+
+// --- triangles
+
+// Triangles of consecutive runs with the same state.
+struct TriangleList {
+  static constexpr uint32_t kPadding = 16;  // triangles; what they say does not matter, but must lie in the arrays
+
+  const uint32_t* corners = nullptr;  // three each, [0] the provoking vertex; from first_vertex on
+  const uint32_t* runs = nullptr;     // in BinChunk::runs
+  uint32_t count = 0;
+  uint32_t first_vertex = 0;    // in BinChunk::vertices
+  ClipPositions positions;      // from first_vertex on
+  uint32_t* removed = nullptr;  // [run]: counts triangles that left nothing; null: nobody asks
+};
+
+// Appends what is left of the triangles after clipping and culling. Those without a pixel centre in `rect` are left out
+// unless LAPILLI_KEEP says otherwise; for small ones the test is exact.
+void append_triangles(const SetupState& state, const TriangleList& list, BinChunk& chunk);
+// One that has vertices which are not inside: appends none, one or several.
+void clip_and_append(const SetupState& state, const TriangleList& list, uint32_t index, BinChunk& chunk);
+
+// --- chunks
+
+// Empties it; keeps its memory, or gives it back.
 void clear_chunk(BinChunk& chunk);
+void release_chunk(BinChunk& chunk);
 // Sorts the triangles into tiles.
 void finish_chunk(const TileGrid& grid, BinChunk& chunk);
+// Bytes that it has allocated.
+uint64_t memory_of(const BinChunk& chunk);
 
 }  // namespace lapilli

@@ -15,14 +15,13 @@ constexpr PixelRect kArea = {0, 0, 200, 100};
 struct Fixture {
   GraphicsPrograms programs;
   DrawState bound;
-  DrawCall draw;
+  uint32_t removed = 0;                                               // TriangleList::removed of the last run
   alignas(64) float outputs[(kSlotVaryings + 2) * kBatchLanes] = {};  // lanes 0..2 are the vertices
 
   Fixture() {
     bound.programs = &programs;
     bound.viewport = {0, 0, 200, 100, 0, 1};
     bound.scissor = {{0, 0}, {200, 100}};
-    draw.state = &bound;
   }
   void vertex(size_t lane, float x, float y, float z, float w, float varying = 0) {
     const float values[] = {x, y, z, w};
@@ -30,24 +29,21 @@ struct Fixture {
     outputs[kSlotVaryings * kBatchLanes + lane] = varying;
   }
   BinChunk run() {
-    const SetupState state = make_setup_state(draw, 0, kArea);
+    const SetupState state = make_setup_state(bound, kArea);
     BinChunk chunk;
-    begin_run(state, chunk);
-    PostVertex post[3];
-    TriangleVertices vertices;
-    for (uint32_t i = 0; i < 3; ++i) {
-      post[i] = append_vertex(state, outputs + i, chunk);
-      vertices.vertex[i] = &post[i];
-      vertices.index[i] = i;
-    }
-    set_up_triangle(state, vertices, chunk);
+    begin_run(state, 0, chunk);
+    append_vertices(state, outputs, 3, chunk);
+    const uint32_t corners[3 + 3 * TriangleList::kPadding] = {0, 1, 2};
+    const uint32_t runs[1 + TriangleList::kPadding] = {};
+    removed = 0;
+    append_triangles(state, {corners, runs, 1, 0, {outputs}, &removed}, chunk);
     finish_chunk({4, 2}, chunk);
     return chunk;
   }
 };
 
 // The only triangle, ready to be shaded.
-TriangleSetup setup_of(const BinChunk& chunk) { return make_triangle_setup(chunk, chunk.triangles.at(0)); }
+TriangleSetup setup_of(const BinChunk& chunk) { return make_triangle_setup(chunk, chunk.triangles[0]); }
 
 // Top left, top right, bottom left in clip space: clockwise on the screen.
 void clockwise(Fixture& f) {

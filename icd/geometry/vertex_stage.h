@@ -1,8 +1,9 @@
-// Vertex processing of one worker: collects the distinct vertices of some primitives, runs the vertex program over full
+// Vertex processing of one worker: collects the distinct vertices of some triangles, runs the vertex program over full
 // batches, transforms the results to the framebuffer.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geometry/setup.h"
@@ -12,39 +13,35 @@ namespace lapilli {
 
 class VertexStage {
  public:
-  // Starts a draw; vertices of earlier ones are forgotten. False: out of memory.
+  // Starts a list of triangles of draws with the same state, bindings and resources. False: out of memory.
   bool begin(const DrawCall& draw, ExecutionLimits& limits);
-  // Vertices added from here on belong to this instance (relative to firstInstance).
-  void begin_instance(uint32_t instance);
-  // Slot of the vertex with this index (vertexOffset or firstVertex included).
-  uint32_t add(uint32_t vertex_index);
+  // Turns vertex indices (firstVertex or vertexOffset included) into slots: consecutive numbers from 0 on. A vertex
+  // that was there before is not run again unless it has been too long ago. `instance`: firstInstance included. At most
+  // kMostVertices between begin() and run(). Returns how many are new.
+  uint32_t add(uint32_t instance, std::span<uint32_t> vertices);
+  // The same for vertices that are known to be distinct.
+  void add_distinct(uint32_t instance, std::span<uint32_t> vertices);
   // Runs all vertices that were added and appends them to the chunk.
   void run(const SetupState& state, BinChunk& chunk);
-  const PostVertex& vertex(uint32_t slot) const { return vertices_[slot]; }
-  // Of slot 0 in the chunk's vertices.
-  uint32_t first_vertex() const { return first_vertex_; }
+  ClipPositions positions() const { return {positions_.data()}; }
+
+  static constexpr uint32_t kMostVertices = 1u << 14;
 
  private:
-  struct Lookup {
-    uint32_t index, stamp, slot;
-  };
   struct alignas(64) Line {
     float value[16];
-  };
-  struct Key {
-    uint32_t index, instance;
   };
 
   const DrawCall* draw_ = nullptr;
   Execution execution_;
-  std::vector<Lookup> lookup_;  // open addressing; entries of other instances are told by their stamp
-  uint32_t stamp_ = 0;
-  uint32_t entries_ = 0;  // in use with the present stamp
-  uint32_t instance_ = 0;
-  std::vector<Key> keys_;  // by slot
-  std::vector<PostVertex> vertices_;
-  uint32_t first_vertex_ = 0;
-  std::vector<Line> outputs_;  // [slot][64 lanes]
+  // By slot: vertex and instance index.
+  BinArray<uint32_t> vertex_, instance_;
+  // By the low bits of a vertex index: the slot that it may be in. What `vertex_` says of the slot decides, so that
+  // nothing has to be cleared.
+  std::vector<uint16_t> last_slot_;
+  uint32_t instance_first_ = 0;  // slot from which on all have the present instance
+  BinArray<float> positions_;    // ClipPositions
+  std::vector<Line> outputs_;    // [slot][64 lanes]
 };
 
 }  // namespace lapilli
