@@ -212,7 +212,7 @@ void FrontEnd::fill_group(std::span<const WorkItem> items, Worker& worker, BinCh
     }
     if (draw.ledger != nullptr) {
       any_ledger = true;
-      add_to_ledger(draw.ledger, run * vertex_cost);
+      add_vertices_to_ledger(draw.ledger, run, run * vertex_cost);
       add_to_ledger(draw.ledger, Removal::vertices, vertices.size() - run, (vertices.size() - run) * vertex_cost);
     }
     corners += vertices.size();

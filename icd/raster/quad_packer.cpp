@@ -126,7 +126,7 @@ void QuadPacker::run(FragmentBatch& batch, uint64_t lanes) {
   }
   if (draw_->ledger != nullptr) {
     const uint64_t executed = 4 * static_cast<uint64_t>(std::popcount(quads_of(lanes)));
-    add_to_ledger(draw_->ledger, executed * lane_cost(program));
+    add_fragments_to_ledger(draw_->ledger, executed, executed * lane_cost(program));
   }
 }
 
