@@ -206,6 +206,9 @@ Result<void> emit_color(Code& code, uint32_t index, const VkPipelineColorBlendAt
     }
     source = blended;
   }
+  for (uint32_t c = 0; c < 4; ++c) {
+    if ((mask >> c & 1) == 0) source[c] = kNoReg;
+  }
   Instruction& store = code.append(Opcode::store_color);
   store.imm = index;
   store.imm2 = mask;

@@ -171,6 +171,7 @@ struct Code {
   std::vector<VkFormat> color_formats;  // of the attachments named by load_color and store_color
   uint32_t workgroup_size[3] = {1, 1, 1};
   uint32_t output_slots = 0;  // vertex: slots written
+  std::vector<Reg> kept;      // computed although nothing reads them: LAPILLI_KEEP
 
   Reg new_value(uint32_t count = 1);  // `count` consecutive registers of kind value
   Reg new_variable(uint32_t count = 1);

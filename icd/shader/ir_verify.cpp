@@ -68,6 +68,9 @@ class Verifier {
   }
 
   bool check_tables() {
+    for (Reg reg : code_.kept) {
+      if (reg >= code_.registers.size()) return fail("keeps what is no register");
+    }
     for (const Instruction& instruction : code_.instructions) {
       if (instruction.op >= Opcode::kCount) return fail("an instruction has no opcode");
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/removals.h"
 #include "image/format.h"
 #include "shader/fixed_function.h"
 #include "shader/passes/passes.h"
@@ -25,7 +26,20 @@ std::vector<bool> finish(LoweredShader& shader) {
   std::vector<bool> live(code.registers.size());
   for (const Instruction& instruction : code.instructions)
     for_each_operand(code, instruction, [&](Reg reg) { live[reg] = true; });
+  for (Reg reg : code.kept) live[reg] = true;
   return live;
+}
+
+// What would have to be done in addition for all outputs to be computed, by a program that is not finished yet. With
+// LAPILLI_KEEP it will be.
+LiveWork removed_work(LoweredShader& shader, const GraphicsState& state, Removal removal) {
+  if (!state.counts_removals && !keeps(removal)) return {};
+  Code& code = shader.code;
+  const LiveWork less = live_work(code);
+  for (const InterfaceComponent& output : shader.outputs) code.kept.push_back(output.reg);
+  const LiveWork all = live_work(code);
+  if (!keeps(removal)) code.kept.clear();
+  return {all.ops - less.ops, all.cost - less.cost};
 }
 
 // Instructions from `first` on come before all others.
@@ -149,10 +163,16 @@ void emit_outputs(LoweredShader& shader, const Varyings& varyings) {
 }
 
 Result<Code> make_vertex_code(const ShaderStage& stage, const GraphicsState& state, const ResourceLayout& layout,
-                              const Varyings& varyings) {
+                              const Varyings& varyings, RemovedWork& removed) {
   Result<LoweredShader> shader = lower_shader(stage, VK_SHADER_STAGE_VERTEX_BIT, layout);
   if (!shader) return shader.error();
   emit_outputs(*shader, varyings);
+  removed.vertex_cost = removed_work(*shader, state, Removal::varyings).cost;
+  for (const InterfaceComponent& output : shader->outputs) {
+    removed.vertex_values += std::none_of(varyings.begin(), varyings.end(), [&](const InterfaceComponent& read) {
+      return read.location == output.location && read.component == output.component;
+    });
+  }
   const std::vector<bool> live = finish(*shader);
   const size_t first = shader->code.instructions.size();
   emit_built_ins(*shader, live);
@@ -231,14 +251,21 @@ Result<void> emit_fragment_epilogue(LoweredShader& shader, const GraphicsState& 
 }
 
 // The inputs that are read, and their slots in order of Location and Component.
-Varyings link_varyings(const LoweredShader& shader, const std::vector<bool>& live) {
+Varyings link_varyings(LoweredShader& shader, const std::vector<bool>& live, RemovedWork& removed) {
+  const bool everything = keeps(Removal::varyings) && shader.inputs.size() <= kMaxVaryingComponents;
   Varyings varyings;
   for (const InterfaceComponent& input : shader.inputs) {
-    if (live[input.reg]) varyings.push_back(input);
+    if (live[input.reg] || everything) varyings.push_back(input);
   }
   std::stable_sort(varyings.begin(), varyings.end(), [](const InterfaceComponent& a, const InterfaceComponent& b) {
     return a.location != b.location ? a.location < b.location : a.component < b.component;
   });
+  removed.input_values = static_cast<uint32_t>(
+      std::count_if(shader.inputs.begin(), shader.inputs.end(), [&](const auto& input) { return !live[input.reg]; }));
+  removed.input_cost = removed.input_values * op_info(Opcode::interpolate).cost / 4;  // of four components
+  if (everything) {
+    for (const InterfaceComponent& input : varyings) shader.code.kept.push_back(input.reg);
+  }
   return varyings;
 }
 
@@ -313,20 +340,23 @@ Result<GraphicsCode> make_graphics_code(const ShaderStage& vertex, const ShaderS
   if (Result<void> r = build(fragment != nullptr); !r) return r.error();
   const bool late_depth = out.depth_test && !out.early_depth;
   const bool replaces_depth = late_depth && find_built_in(shader.built_in_outputs, spv::BuiltIn::FragDepth) != nullptr;
-  out.fragment_reads_nothing = !has_effects(shader) && !replaces_depth;
+  const LiveWork work = removed_work(shader, state, Removal::outputs);
+  out.removed.output_ops = work.ops;
+  out.removed.output_cost = work.cost;
+  out.fragment_reads_nothing = !has_effects(shader) && !replaces_depth && !keeps(Removal::outputs);
   if (out.fragment_reads_nothing && fragment != nullptr) {  // nobody sees what the shader computes
     if (Result<void> r = build(false); !r) return r.error();
   }
   plan_shading(out, shader, state);
   const std::vector<bool> live = finish(shader);
-  varyings = link_varyings(shader, live);
+  varyings = link_varyings(shader, live, out.removed);
   if (varyings.size() > kMaxVaryingComponents)
     return Error{VK_ERROR_UNKNOWN, "the fragment shader reads more than " + std::to_string(kMaxVaryingComponents) +
                                        " components of inputs"};
   const size_t first = shader.code.instructions.size();
   emit_fragment_prologue(shader, out, out.early_depth && !state.raster_tests_depth, depth_reg, varyings, live);
   move_to_front(shader.code, first);
-  Result<Code> vertex_code = make_vertex_code(vertex, state, layout, varyings);
+  Result<Code> vertex_code = make_vertex_code(vertex, state, layout, varyings, out.removed);
   if (!vertex_code) return vertex_code.error();
   out.vertex = std::move(*vertex_code);
   out.fragment = std::move(shader.code);
@@ -351,6 +381,7 @@ Result<GraphicsPrograms> build_graphics(const ShaderStage& vertex, const ShaderS
   if (!code) return code.error();
   GraphicsPrograms out;
   static_cast<FragmentPlan&>(out) = *code;
+  out.removed = code->removed;
   Result<ProgramPtr> program = assemble(std::move(code->vertex));
   if (!program) return program.error();
   out.vertex = std::move(*program);

@@ -38,6 +38,7 @@ struct GraphicsState {
   std::span<const VertexAttribute> attributes;
   bool depth_test = false, depth_write = false;  // false too where the pass has no depth attachment
   VkCompareOp depth_compare = VK_COMPARE_OP_ALWAYS;
+  bool counts_removals = false;             // fill RemovedWork
   bool raster_tests_depth = false;          // the early depth test is not in the program
   std::span<const VkFormat> color_formats;  // by attachment index of the subpass; VK_FORMAT_UNDEFINED: unused
   std::span<const VkPipelineColorBlendAttachmentState> blend;  // same length
@@ -55,7 +56,18 @@ struct FragmentPlan {
   bool deferrable = false;
 };
 
+// What linking took out, for the ledger: lane-ops (cost of ops.def) of each lane.
+struct RemovedWork {
+  uint32_t vertex_values = 0;  // components that the vertex shader writes and the fragment shader does not read
+  uint32_t vertex_cost = 0;    // of computing them
+  uint32_t input_values = 0;   // components of fragment inputs that are not interpolated
+  uint32_t input_cost = 0;
+  uint32_t output_ops = 0;  // whose result only a masked or missing attachment would take
+  uint32_t output_cost = 0;
+};
+
 struct GraphicsPrograms : FragmentPlan {
+  RemovedWork removed;
   ProgramPtr vertex;
   ProgramPtr fragment;                  // null: nothing would be written (no fragment stage, no depth)
   std::vector<Interpolation> varyings;  // one per varying component, from kSlotVaryings on

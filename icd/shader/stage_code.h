@@ -8,6 +8,7 @@
 namespace lapilli {
 
 struct GraphicsCode : FragmentPlan {
+  RemovedWork removed;
   Code vertex, fragment;
   std::vector<Interpolation> varyings;
   uint32_t output_slots = 0;

@@ -1,6 +1,7 @@
 // Linking of stages, prologues and epilogues: what is in the programs, and what is not.
 #include <map>
 
+#include "base/removals.h"
 #include "shader/spirv/test/run_shader.h"
 #include "shaders/interface.frag.h"
 #include "shaders/interface.vert.h"
@@ -75,6 +76,36 @@ TEST_F(Stage, OnlyWhatIsReadIsStoredAndInterpolated) {
   EXPECT_EQ(count(code.fragment, Opcode::frag_perspective), 1u);
   EXPECT_EQ(count(code.fragment, Opcode::frag_depth), 0u);
   EXPECT_EQ(count(code.fragment, Opcode::count_samples), 1u);
+}
+
+TEST_F(Stage, KeepsWhatNobodyReadsIfAsked) {
+  state.counts_removals = true;
+  make();
+  EXPECT_EQ(code.removed.input_values, 13u - 6u);
+  EXPECT_EQ(code.removed.vertex_values, 13u - 6u);
+  EXPECT_GE(code.removed.vertex_cost, op_info(Opcode::fsin).cost);
+  set_kept_removals(1u << static_cast<uint32_t>(Removal::varyings));
+  make();
+  set_kept_removals(0);
+  EXPECT_EQ(code.varyings.size(), 13u);
+  EXPECT_EQ(count(code.vertex, Opcode::fsin), 1u);
+}
+
+TEST_F(Stage, KeepsWhatOnlyMaskedTargetsTakeIfAsked) {
+  state.counts_removals = true;
+  make();
+  EXPECT_EQ(code.removed.output_ops, 0u);
+  for (VkPipelineColorBlendAttachmentState& each : blend) each.colorWriteMask = 0;
+  make();
+  EXPECT_TRUE(code.fragment_reads_nothing);
+  EXPECT_GT(code.removed.output_ops, 0u);
+  EXPECT_EQ(count(code.fragment, Opcode::fmul), 0u);
+  set_kept_removals(1u << static_cast<uint32_t>(Removal::outputs));
+  make();
+  set_kept_removals(0);
+  EXPECT_FALSE(code.fragment_reads_nothing);
+  EXPECT_GT(count(code.fragment, Opcode::fmul), 0u);
+  EXPECT_EQ(count(code.fragment, Opcode::store_color), 0u);
 }
 
 TEST_F(Stage, FetchesOfAttributes) {

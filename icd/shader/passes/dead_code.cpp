@@ -8,7 +8,7 @@ constexpr uint32_t kNone = 0xFFFFFFFF;
 
 class Marker {
  public:
-  explicit Marker(Code& code)
+  explicit Marker(const Code& code)
       : code_(code),
         live_(code.instructions.size(), 0),
         needed_(code.registers.size(), 0),
@@ -19,6 +19,7 @@ class Marker {
 
   void run() {
     list_writers();
+    for (Reg reg : code_.kept) need(reg);
     for (uint32_t i = 0; i < code_.instructions.size(); ++i) {
       // A store to an array counts where the array is read.
       const Opcode op = code_.instructions[i].op;
@@ -32,10 +33,24 @@ class Marker {
       const RegArray& array = code_.arrays[instruction.imm];
       for (Reg reg = array.first; reg < array.first + array.count; ++reg) need(reg);
     }
-    for (uint32_t i = 0; i < code_.instructions.size(); ++i) {
-      if (live_[i] != 0) trim(code_.instructions[i]);
+  }
+
+  bool is_live(uint32_t i) const { return live_[i] != 0; }
+  const std::vector<uint8_t>& live() const { return live_; }
+
+  // Drops results at both ends where the instruction says how many there are.
+  void trim(Instruction& instruction) const {
+    if (op_info(instruction.op).results >= 0) return;
+    while (instruction.results > 1 && needed_[instruction.dst + instruction.results - 1u] == 0) --instruction.results;
+    const ImmRoles roles = imm_roles(instruction.op);
+    if (roles.imm != ImmRole::varying && roles.imm2 != ImmRole::bytes) return;
+    for (; instruction.results > 1 && needed_[instruction.dst] == 0; ++instruction.dst, --instruction.results) {
+      if (roles.imm == ImmRole::varying) {
+        ++instruction.imm;
+      } else {
+        instruction.imm2 += 4;
+      }
     }
-    keep_marked(code_, live_);
   }
 
  private:
@@ -69,22 +84,7 @@ class Marker {
     if (array != kNoReg) need(code_.arrays[array].first);
   }
 
-  // Drops results at both ends where the instruction says how many there are.
-  void trim(Instruction& instruction) {
-    if (op_info(instruction.op).results >= 0) return;
-    while (instruction.results > 1 && needed_[instruction.dst + instruction.results - 1u] == 0) --instruction.results;
-    const ImmRoles roles = imm_roles(instruction.op);
-    if (roles.imm != ImmRole::varying && roles.imm2 != ImmRole::bytes) return;
-    for (; instruction.results > 1 && needed_[instruction.dst] == 0; ++instruction.dst, --instruction.results) {
-      if (roles.imm == ImmRole::varying) {
-        ++instruction.imm;
-      } else {
-        instruction.imm2 += 4;
-      }
-    }
-  }
-
-  Code& code_;
+  const Code& code_;
   std::vector<uint8_t> live_;
   std::vector<uint8_t> needed_;
   std::vector<uint32_t> last_writer_;    // by register
@@ -94,6 +94,25 @@ class Marker {
 
 }  // namespace
 
-void remove_dead_code(Code& code) { Marker(code).run(); }
+void remove_dead_code(Code& code) {
+  Marker marker(code);
+  marker.run();
+  for (uint32_t i = 0; i < code.instructions.size(); ++i) {
+    if (marker.is_live(i)) marker.trim(code.instructions[i]);
+  }
+  keep_marked(code, marker.live());
+}
+
+LiveWork live_work(const Code& code) {
+  Marker marker(code);
+  marker.run();
+  LiveWork work;
+  for (uint32_t i = 0; i < code.instructions.size(); ++i) {
+    if (!marker.is_live(i)) continue;
+    ++work.ops;
+    work.cost += op_info(code.instructions[i].op).cost;
+  }
+  return work;
+}
 
 }  // namespace lapilli

@@ -20,6 +20,13 @@ void simplify(Code& code, SimdTarget target);
 // Removes what has no effect and whose results nobody reads, and results at the ends of multi-result instructions.
 void remove_dead_code(Code& code);
 
+// What would be left.
+struct LiveWork {
+  uint32_t ops = 0;
+  uint32_t cost = 0;  // in the unit of ops.def
+};
+LiveWork live_work(const Code& code);
+
 // Moves what is the same in all lanes of a draw to Code::once.
 void split_once(Code& code);
 

@@ -39,6 +39,7 @@ class Simplifier {
       }
       note_writes(instruction);
     }
+    for (Reg& reg : code_.kept) reg = resolve(reg);
     keep_marked(code_, keep_);
   }
 
