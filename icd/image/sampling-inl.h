@@ -156,7 +156,10 @@ struct LevelReader {
       T::gather(level.data, offset_of(y * broadcast(level.row_pitch), x), inside, texel);
       F value[4];
       T::decode(texel, value);
-      for (int c = 0; c < 4; ++c) store_where(live, select(inside, value[c], zero_f()), rgba[c] + first);
+      store_where(live, select(inside, value[0], zero_f()), rgba[0] + first);
+      store_where(live, select(inside, value[1], zero_f()), rgba[1] + first);
+      store_where(live, select(inside, value[2], zero_f()), rgba[2] + first);
+      store_where(live, select(inside, value[3], zero_f()), rgba[3] + first);
     }
   }
 };

@@ -112,34 +112,33 @@ void write_swizzled(const TextureView& view, const Registers& texels, uint64_t l
   }
 }
 
+HWY_API F read_at(const float* base, U byte_offsets) { return as_f(gather32(base, byte_offsets, all_lanes())); }
+
 void lod_from_derivatives(const TextureView& view, const SamplerState& sampler, const float* u, const float* v,
                           float* lod) {
   const float width = sampler.unnormalized ? 1.0f : static_cast<float>(view.levels[0].width);
   const float height = sampler.unnormalized ? 1.0f : static_cast<float>(view.levels[0].height);
   // One lane for each quad.
-  alignas(64) float left[2][kQuads], right[2][kQuads], below[2][kQuads], result[kQuads];
-  for (int quad = 0; quad < kQuads; ++quad) {
-    left[0][quad] = u[quad * 4];
-    left[1][quad] = v[quad * 4];
-    right[0][quad] = u[quad * 4 + 1];
-    right[1][quad] = v[quad * 4 + 1];
-    below[0][quad] = u[quad * 4 + 2];
-    below[1][quad] = v[quad * 4 + 2];
-  }
+  alignas(64) float result[kQuads];
   for (int quad = 0; quad < kQuads; quad += kVectorLanes) {
-    const F u0 = load<F>(left[0] + quad);
-    const F v0 = load<F>(left[1] + quad);
-    const F du_dx = (load<F>(right[0] + quad) - u0) * broadcast(width);
-    const F dv_dx = (load<F>(right[1] + quad) - v0) * broadcast(height);
-    const F du_dy = (load<F>(below[0] + quad) - u0) * broadcast(width);
-    const F dv_dy = (load<F>(below[1] + quad) - v0) * broadcast(height);
+    const U at = shift_left<4>(lane_numbers() + broadcast(static_cast<uint32_t>(quad)));  // bytes
+    const F u0 = read_at(u, at);
+    const F v0 = read_at(v, at);
+    const F du_dx = (read_at(u + 1, at) - u0) * broadcast(width);
+    const F dv_dx = (read_at(v + 1, at) - v0) * broadcast(height);
+    const F du_dy = (read_at(u + 2, at) - u0) * broadcast(width);
+    const F dv_dy = (read_at(v + 2, at) - v0) * broadcast(height);
     const F x_squared = fma(du_dx, du_dx, dv_dx * dv_dx);
     const F y_squared = fma(du_dy, du_dy, dv_dy * dv_dy);
     const F squared = max(x_squared, y_squared);
     const F lambda = broadcast(0.5f) * log2(squared);
     store(select(unordered(x_squared, y_squared), zero_f(), lambda), result + quad);
   }
-  for (int lane = 0; lane < kLanes; ++lane) lod[lane] = result[lane / 4];
+  for (int first = 0; first < kLanes; first += kVectorLanes) {
+    const float* quads[kVectorLanes / 4];
+    for (int quad = 0; quad < kVectorLanes / 4; ++quad) quads[quad] = result + first / 4 + quad;
+    store(spread_to_quads(quads, 0), lod + first);
+  }
 }
 
 // What each lane reads.
@@ -233,6 +232,13 @@ void sample_2d(const TextureView* view, const SamplerState* sampler, const Sampl
     LevelPlan plan;
     plan_levels(*view, *sampler, operands, plan);
     const uint64_t magnified = magnify == minify ? 0 : operands.lanes & plan.magnified;
+    // Nearly always the whole batch reads one level, or the same two.
+    const int32_t level = plan.fine[std::countr_zero(operands.lanes) % kLanes];
+    const bool one_level = (operands.lanes & (plan.between | ~lanes_equal(plan.fine, level))) == 0;
+    if (one_level && view->identity_swizzle && (magnified == 0 || magnified == operands.lanes)) {
+      job.level = &view->levels[static_cast<size_t>(level)];
+      return (magnified != 0 ? magnify : minify)(job, operands.lanes, rgba);
+    }
     read_mixed(*view, magnify, job, plan, magnified, texels.rgba);
     read_mixed(*view, minify, job, plan, operands.lanes & ~magnified, texels.rgba);
   }

@@ -36,21 +36,24 @@ void move_batch(Batch& batch, uint32_t number) {
   }
 }
 
-void sample(benchmark::State& state, VkFormat format, VkFilter filter, VkSamplerAddressMode mode) {
+void sample(benchmark::State& state, VkFormat format, VkFilter filter, VkSamplerAddressMode mode, uint32_t levels = 1) {
   if (!choose(state)) return;
-  const auto layout = make_layout(format, {.width = 512, .height = 512});
+  const auto layout = make_layout(format, {.width = 512, .height = 512, .mip_levels = levels});
   std::vector<std::byte> memory(layout->size, std::byte{0x3F});
-  const auto view = make_view(*layout, memory.data(), format, {}, {layout->format->aspects, 0, 1, 0, 1});
+  const auto view = make_view(*layout, memory.data(), format, {}, {layout->format->aspects, 0, levels, 0, 1});
   SamplerState sampler;
   sampler.mag_filter = sampler.min_filter = filter;
   sampler.address_u = sampler.address_v = mode;
+  sampler.mipmap_mode = VK_SAMPLER_MIPMAP_MODE_LINEAR;
+  sampler.max_lod = 100;
+  sampler.lod_bias = levels > 1 ? 0.25f : 0.0f;
   std::vector<Batch> batches(64);
   for (uint32_t i = 0; i < 64; ++i) move_batch(batches[i], i);
   const SamplingFunctions& functions = sampling_functions();
   uint32_t i = 0;
   for (auto _ : state) {
     Batch& batch = batches[i++ % 64];
-    functions.sample_2d(&*view, &sampler, {batch.u, batch.v, nullptr, LodSource::operand, ~uint64_t{0}}, batch.out);
+    functions.sample_2d(&*view, &sampler, {batch.u, batch.v, nullptr, LodSource::derivatives, ~uint64_t{0}}, batch.out);
   }
   state.counters["lanes/s"] = benchmark::Counter(64.0, benchmark::Counter::kIsIterationInvariantRate);
 }
@@ -85,6 +88,17 @@ void blend(benchmark::State& state, bool whole_block) {
   for (auto _ : state) {
     functions.blend_quads(plane.data(), {quads, whole_block}, ~uint64_t{0}, batch.in, equation);
   }
+}
+
+// Vertex attributes, one behind the other.
+void fetch(benchmark::State& state, VkFormat format) {
+  if (!choose(state)) return;
+  const FormatInfo& info = *find_format(format);
+  std::vector<std::byte> memory(64 * info.texel_size);
+  Batch batch;
+  alignas(64) uint32_t offsets[64];
+  for (uint32_t i = 0; i < 64; ++i) offsets[i] = i * info.texel_size;
+  for (auto _ : state) texel_functions(info).load_gathered(memory.data(), offsets, ~uint64_t{0}, batch.out);
 }
 
 // Tiles of an image of 1280x704, one after the other.
@@ -137,6 +151,7 @@ BENCHMARK_CAPTURE(sample, rgba8_linear_to_edge, VK_FORMAT_R8G8B8A8_UNORM, VK_FIL
                   VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE)
     ->DenseRange(0, 2);
 BENCHMARK_CAPTURE(sample, rgba8_linear_mirror, VK_FORMAT_R8G8B8A8_UNORM, VK_FILTER_LINEAR, kMirror)->DenseRange(0, 2);
+BENCHMARK_CAPTURE(sample, rgba8_trilinear, VK_FORMAT_R8G8B8A8_UNORM, VK_FILTER_LINEAR, kRepeat, 9)->DenseRange(0, 2);
 BENCHMARK_CAPTURE(sample, rgba8_nearest, VK_FORMAT_R8G8B8A8_UNORM, VK_FILTER_NEAREST, kRepeat)->DenseRange(0, 2);
 BENCHMARK_CAPTURE(sample, rgba32f_linear, VK_FORMAT_R32G32B32A32_SFLOAT, VK_FILTER_LINEAR, kRepeat)->DenseRange(0, 2);
 BENCHMARK_CAPTURE(store_and_load, rgba8, VK_FORMAT_R8G8B8A8_UNORM, false)->DenseRange(0, 2);
@@ -145,6 +160,9 @@ BENCHMARK_CAPTURE(store_and_load, depth, VK_FORMAT_D32_SFLOAT, false)->DenseRang
 BENCHMARK_CAPTURE(store_and_load, rgba8_block, VK_FORMAT_R8G8B8A8_UNORM, true)->DenseRange(0, 2);
 BENCHMARK_CAPTURE(store_and_load, rgba32f_block, VK_FORMAT_R32G32B32A32_SFLOAT, true)->DenseRange(0, 2);
 BENCHMARK_CAPTURE(store_and_load, depth_block, VK_FORMAT_D32_SFLOAT, true)->DenseRange(0, 2);
+BENCHMARK_CAPTURE(fetch, rgba32f, VK_FORMAT_R32G32B32A32_SFLOAT)->DenseRange(0, 2);
+BENCHMARK_CAPTURE(fetch, rgb32f, VK_FORMAT_R32G32B32_SFLOAT)->DenseRange(0, 2);
+BENCHMARK_CAPTURE(fetch, rg32f, VK_FORMAT_R32G32_SFLOAT)->DenseRange(0, 2);
 BENCHMARK_CAPTURE(blend, quads, false)->DenseRange(0, 2);
 BENCHMARK_CAPTURE(blend, block, true)->DenseRange(0, 2);
 BENCHMARK(store_tiles)->Arg(4)->Arg(16);

@@ -9,6 +9,7 @@
 #endif
 
 #include "base/lanes-inl.h"
+#include "base/lanes_gather-inl.h"
 #include "image/format.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -151,7 +152,11 @@ struct Texel {
 
   // `base` + byte offsets; 0 where m is not set.
   HWY_API void gather(const std::byte* base, U byte_offsets, M m, U* words) {
-    for (size_t word = 0; word < kWords; ++word) words[word] = gather32(base + 4 * word, byte_offsets, m);
+    if constexpr (kWords == 1) {
+      words[0] = gather32(base, byte_offsets, m);
+    } else {
+      gather_words<kWords>(base, byte_offsets, m, words);
+    }
   }
 };
 

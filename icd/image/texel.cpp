@@ -81,9 +81,11 @@ void write_quads(const BatchWords<kWords>& words, std::byte* plane, const QuadPl
 }
 
 HWY_API void store_components(const F* rgba, int vector, float* const registers[4]) {
-  for (int c = 0; c < 4; ++c) {
-    if (registers[c] != nullptr) store(rgba[c], registers[c] + vector * kVectorLanes);
-  }
+  const int first = vector * kVectorLanes;
+  if (registers[0] != nullptr) store(rgba[0], registers[0] + first);
+  if (registers[1] != nullptr) store(rgba[1], registers[1] + first);
+  if (registers[2] != nullptr) store(rgba[2], registers[2] + first);
+  if (registers[3] != nullptr) store(rgba[3], registers[3] + first);
 }
 
 // Vector `vector` of a whole block, whose first texel is `block`.
@@ -111,21 +113,28 @@ void load_quads(const std::byte* plane, const QuadPlaces& places, uint64_t lanes
   }
 }
 
-// The bits of the texel that belong to `components`.
+// The bits of the texel that belong to a set of components.
 template <class T>
 struct ComponentBits {
   uint32_t word[T::kWords] = {};
-  bool all;
-  HWY_INLINE explicit ComponentBits(uint32_t components) {
-    uint32_t present = 0;
+  bool all = true;
+};
+template <class T>
+constexpr std::array<ComponentBits<T>, 16> kComponentBits = [] {
+  std::array<ComponentBits<T>, 16> table{};
+  for (uint32_t components = 0; components < 16; ++components) {
+    ComponentBits<T>& bits = table[components];
     for (int c = 0; c < 4; ++c) {
       if (T::component(c).bits == 0) continue;
-      present |= 1u << c;
-      if ((components >> c & 1) != 0) word[T::word_of(c)] |= T::mask_of_bits(c) << T::shift_of(c);
+      if ((components >> c & 1) != 0) {
+        bits.word[T::word_of(c)] |= T::mask_of_bits(c) << T::shift_of(c);
+      } else {
+        bits.all = false;
+      }
     }
-    all = (components & present) == present;
   }
-};
+  return table;
+}();
 
 // Takes the bits of the written components from the new words, the others from the texels that are there.
 template <size_t kWords>
@@ -139,23 +148,35 @@ HWY_API void keep_other_components(const BatchWords<kWords>& old, const uint32_t
   }
 }
 
-template <class T>
-HWY_API void encode_vector(const float* const registers[4], int vector, U* texel) {
-  F rgba[4];
-  for (int c = 0; c < 4; ++c) {
-    // A register that the format or the mask does not ask for may be null.
-    rgba[c] = registers[c] != nullptr ? load<F>(registers[c] + vector * kVectorLanes) : zero_f();
+// The registers of a colour. Those that the format or the mask does not ask for may be null: 0.
+alignas(64) constexpr float kZeros[kLanes] = {};
+struct Color {
+  const float* component[4];
+
+  HWY_INLINE explicit Color(const float* const registers[4]) {
+    for (int c = 0; c < 4; ++c) component[c] = registers[c] != nullptr ? registers[c] : kZeros;
   }
+  template <int c>
+  HWY_INLINE F load_component(int vector) const {
+    return load<F>(component[c] + vector * kVectorLanes);
+  }
+};
+
+// (Loops over components stay loops at -O2, and vectors go through memory.)
+template <class T>
+HWY_API void encode_vector(const Color& color, int vector, U* texel) {
+  const F rgba[4] = {color.load_component<0>(vector), color.load_component<1>(vector), color.load_component<2>(vector),
+                     color.load_component<3>(vector)};
   T::encode(rgba, texel);
 }
 
 template <class T>
-void store_block(std::byte* block, uint64_t lanes, const float* const registers[4], const ComponentBits<T>& bits) {
+void store_block(std::byte* block, uint64_t lanes, const Color& color, const ComponentBits<T>& bits) {
   const bool everything = bits.all && lanes == ~uint64_t{0};
   for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
     std::byte* const texels = vector_of_block<T::kWords>(block, vector);
     U texel[T::kWords];
-    encode_vector<T>(registers, vector, texel);
+    encode_vector<T>(color, vector, texel);
     if (!everything) {
       const U written = mask_to_u(mask_of(lanes, vector));
       U old[T::kWords];
@@ -173,12 +194,13 @@ template <size_t kFormat>
 void store_quads(std::byte* plane, const QuadPlaces& places, uint64_t lanes, const float* const registers[4],
                  uint32_t components) {
   using T = Texel<kFormat>;
-  const ComponentBits<T> bits(components);
-  if (places.whole_block) return store_block<T>(plane + places.quad[0] * 16 * T::kWords, lanes, registers, bits);
+  const ComponentBits<T>& bits = kComponentBits<T>[components & 15];
+  const Color color(registers);
+  if (places.whole_block) return store_block<T>(plane + places.quad[0] * 16 * T::kWords, lanes, color, bits);
   BatchWords<T::kWords> words;
   for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
     U texel[T::kWords];
-    encode_vector<T>(registers, vector, texel);
+    encode_vector<T>(color, vector, texel);
     for (size_t w = 0; w < T::kWords; ++w) store(texel[w], &words.word[w][vector * kVectorLanes]);
   }
   if (!bits.all) {
@@ -205,26 +227,25 @@ struct Blender {
         destination_alpha(e.destination[1]) {}
 
   template <class T>
-  HWY_INLINE U blend(const float* const source[4], int vector, U old) const {
-    F s[4], d[4];
-    for (int c = 0; c < 4; ++c) {
-      s[c] = source[c] != nullptr ? load<F>(source[c] + vector * kVectorLanes) : zero_f();
-      s[c] = min(max(zero_f(), s[c]), broadcast(1.0f));
-    }
+  HWY_INLINE U blend(const Color& color, int vector, U old) const {
+    F d[4];
     T::decode(&old, d);
-    const F by = source_color.of(s[3]);
-    const F destination_by = destination_color.of(s[3]);
-    F result[4];
-    for (int c = 0; c < 3; ++c) result[c] = fma(d[c], destination_by, s[c] * by);
-    result[3] = fma(d[3], destination_alpha.of(s[3]), s[3] * source_alpha.of(s[3]));
+    const F alpha = clamp01(color.load_component<3>(vector));
+    const F by = source_color.of(alpha);
+    const F destination_by = destination_color.of(alpha);
+    const F result[4] = {fma(d[0], destination_by, clamp01(color.load_component<0>(vector)) * by),
+                         fma(d[1], destination_by, clamp01(color.load_component<1>(vector)) * by),
+                         fma(d[2], destination_by, clamp01(color.load_component<2>(vector)) * by),
+                         fma(d[3], destination_alpha.of(alpha), alpha * source_alpha.of(alpha))};
     U texel;
     T::encode(result, &texel);
     return texel;
   }
+  static HWY_INLINE F clamp01(F x) { return min(max(zero_f(), x), broadcast(1.0f)); }  // a NaN becomes 0
 };
 
 template <class T>
-void blend_block(std::byte* block, uint64_t lanes, const float* const source[4], const Blender& blender,
+void blend_block(std::byte* block, uint64_t lanes, const Color& source, const Blender& blender,
                  const ComponentBits<T>& bits) {
   const bool everything = bits.all && lanes == ~uint64_t{0};
   for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
@@ -243,14 +264,15 @@ template <size_t kFormat>
 void blend_quads(std::byte* plane, const QuadPlaces& places, uint64_t lanes, const float* const source[4],
                  const BlendEquation& equation) {
   using T = Texel<kFormat>;
-  const ComponentBits<T> bits(equation.components);
+  const ComponentBits<T>& bits = kComponentBits<T>[equation.components & 15];
   const Blender blender(equation);
-  if (places.whole_block) return blend_block<T>(plane + places.quad[0] * 16, lanes, source, blender, bits);
+  const Color color(source);
+  if (places.whole_block) return blend_block<T>(plane + places.quad[0] * 16, lanes, color, blender, bits);
   BatchWords<1> old, words;
   read_quads<1>(plane, places, lanes, old);
   for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
     const int first = vector * kVectorLanes;
-    store(blender.blend<T>(source, vector, load<U>(&old.word[0][first])), &words.word[0][first]);
+    store(blender.blend<T>(color, vector, load<U>(&old.word[0][first])), &words.word[0][first]);
   }
   if (!bits.all) keep_other_components(old, bits.word, words);
   write_quads<1>(words, plane, places, lanes);
