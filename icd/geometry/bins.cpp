@@ -1,45 +1,100 @@
 // Sorting the triangles of a chunk into tiles: count, prefix sum, scatter, so that the order of primitives is kept.
 #include "geometry/bins.h"
 
+#include <algorithm>
+
 #include "geometry/setup.h"
 
 namespace lapilli {
 namespace {
 
-// False if an edge leaves the whole tile outside. The value at the corner where it is largest decides.
-bool may_touch(const CoverageEdges& edges, int32_t tile_x, int32_t tile_y) {
-  constexpr int64_t kSpan = kTileSize - 1;
-  for (int i = 0; i < 3; ++i) {
-    const int64_t at_origin = edges.c[i] + int64_t{edges.a[i]} * tile_x + int64_t{edges.b[i]} * tile_y;
-    const int64_t largest =
-        at_origin + (edges.a[i] > 0 ? edges.a[i] * kSpan : 0) + (edges.b[i] > 0 ? edges.b[i] * kSpan : 0);
-    if (largest < 0) return false;
+// Edge functions of a triangle at the corner of a tile where each is largest: below 0 the tile is outside.
+struct TileEdges {
+  int64_t at[3];                 // tile (0, 0)
+  int64_t step_x[3], step_y[3];  // to the next tile
+
+  TileEdges(const CoverageEdges& edges, uint32_t x, uint32_t y) {
+    constexpr int64_t kSpan = kTileSize - 1, kStep = kTileSize;
+    for (int i = 0; i < 3; ++i) {
+      const int64_t a = edges.a[i], b = edges.b[i];
+      step_x[i] = a * kStep;
+      step_y[i] = b * kStep;
+      at[i] = edges.c[i] + std::max<int64_t>(a, 0) * kSpan + std::max<int64_t>(b, 0) * kSpan + x * step_x[i] +
+              y * step_y[i];
+    }
   }
-  return true;
+};
+
+// Calls visit(tile, triangle) for every tile that the triangle may touch. Not inlined: most lie in one tile.
+template <class Visit>
+[[gnu::noinline]] void visit_tiles(const TileGrid& grid, const BinChunk& chunk, uint32_t index, Visit& visit) {
+  const BinTriangle& triangle = chunk.triangles[index];
+  const uint32_t x0 = triangle.x0 / kTileSize, x1 = (triangle.x1 - 1u) / kTileSize;
+  const uint32_t y0 = triangle.y0 / kTileSize, y1 = (triangle.y1 - 1u) / kTileSize;
+  if (x0 == x1 || y0 == y1) {
+    for (uint32_t y = y0; y <= y1; ++y) {
+      for (uint32_t x = x0; x <= x1; ++x) visit(y * grid.columns + x, index);
+    }
+    return;
+  }
+  TileEdges edges(make_edges(chunk, triangle), x0, y0);
+  for (uint32_t y = y0; y <= y1; ++y) {
+    int64_t e0 = edges.at[0], e1 = edges.at[1], e2 = edges.at[2];
+    for (uint32_t x = x0; x <= x1; ++x) {
+      if ((e0 | e1 | e2) >= 0) visit(y * grid.columns + x, index);
+      e0 += edges.step_x[0];
+      e1 += edges.step_x[1];
+      e2 += edges.step_x[2];
+    }
+    for (int i = 0; i < 3; ++i) edges.at[i] += edges.step_y[i];
+  }
+}
+template <class Visit>
+void for_each_tile(const TileGrid& grid, const BinChunk& chunk, Visit& visit) {
+  const uint32_t count = static_cast<uint32_t>(chunk.triangles.size());
+  const BinTriangle* const triangles = chunk.triangles.data();
+  for (uint32_t t = 0; t < count; ++t) {
+    const BinTriangle& triangle = triangles[t];
+    const uint32_t x0 = triangle.x0 / kTileSize, y0 = triangle.y0 / kTileSize;
+    if (x0 == (triangle.x1 - 1u) / kTileSize && y0 == (triangle.y1 - 1u) / kTileSize) {
+      visit(y0 * grid.columns + x0, t);
+    } else {
+      visit_tiles(grid, chunk, t, visit);
+    }
+  }
 }
 
-// Calls visit(tile, triangle) for every tile that each triangle may touch, in primitive order.
-template <class Visit>
-void for_each_tile(const TileGrid& grid, const BinChunk& chunk, const Visit& visit) {
-  const uint32_t count = static_cast<uint32_t>(chunk.triangles.size());
-  for (uint32_t t = 0; t < count; ++t) {
-    const BinTriangle& triangle = chunk.triangles[t];
-    const uint32_t x0 = triangle.x0 / kTileSize, x1 = (triangle.x1 - 1u) / kTileSize;
-    const uint32_t y0 = triangle.y0 / kTileSize, y1 = (triangle.y1 - 1u) / kTileSize;
-    if (x0 == x1 && y0 == y1) {
-      visit(y0 * grid.columns + x0, t);
-      continue;
-    }
-    const bool test_edges = x0 != x1 && y0 != y1;
-    const CoverageEdges edges = test_edges ? make_edges(chunk, triangle) : CoverageEdges{};
-    for (uint32_t y = y0; y <= y1; ++y) {
-      for (uint32_t x = x0; x <= x1; ++x) {
-        if (!test_edges || may_touch(edges, static_cast<int32_t>(x * kTileSize), static_cast<int32_t>(y * kTileSize)))
-          visit(y * grid.columns + x, t);
-      }
-    }
+// Neighbours in the list mostly lie in the same tile: its number is kept at hand, since memory that was just written
+// is slow to read.
+struct Count {
+  uint32_t* first;  // of BinChunk::tile_first
+  uint32_t tile = 0, count = 0;
+
+  void operator()(uint32_t next, uint32_t) {
+    if (next != tile) change(next);
+    ++count;
   }
-}
+  void change(uint32_t next) {
+    first[tile + 1] += count;
+    tile = next;
+    count = 0;
+  }
+};
+struct Scatter {
+  uint32_t* first;
+  uint32_t* references;
+  uint32_t tile = 0, at = first[0];
+
+  void operator()(uint32_t next, uint32_t triangle) {
+    if (next != tile) change(next);
+    references[at++] = triangle;
+  }
+  void change(uint32_t next) {
+    first[tile] = at;
+    tile = next;
+    at = first[tile];
+  }
+};
 
 }  // namespace
 
@@ -57,13 +112,16 @@ void release_chunk(BinChunk& chunk) { chunk = BinChunk(); }
 void finish_chunk(const TileGrid& grid, BinChunk& chunk) {
   chunk.tile_first.assign(grid.count() + 1, 0);
   uint32_t* const first = chunk.tile_first.data();
-  for_each_tile(grid, chunk, [first](uint32_t tile, uint32_t) { ++first[tile + 1]; });
+  Count count{first};
+  for_each_tile(grid, chunk, count);
+  count.change(0);
   for (uint32_t tile = 0; tile < grid.count(); ++tile) first[tile + 1] += first[tile];
 
   // The scatter moves each tile's start to its end; shifting by one entry restores it.
   chunk.references.resize(first[grid.count()]);
-  uint32_t* const references = chunk.references.data();
-  for_each_tile(grid, chunk, [=](uint32_t tile, uint32_t triangle) { references[first[tile]++] = triangle; });
+  Scatter scatter{first, chunk.references.data()};
+  for_each_tile(grid, chunk, scatter);
+  scatter.change(0);
   for (uint32_t tile = grid.count(); tile > 0; --tile) first[tile] = first[tile - 1];
   first[0] = 0;
 }

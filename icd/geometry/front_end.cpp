@@ -32,8 +32,9 @@ bool has_effect(const DrawCall& draw) {
   return !programs.fragment_reads_nothing || programs.depth_write || counts;
 }
 
+// Of draws with the same state: whether nothing in the vertex program can tell them apart.
 bool same_blocks(const DrawCall& a, const DrawCall& b) {
-  return a.state == b.state && a.bindings == b.bindings && a.resources == b.resources;
+  return a.bindings == b.bindings && a.resources == b.resources;
 }
 
 bool has_distinct_vertices(const DrawCall& draw) {
@@ -173,58 +174,48 @@ void FrontEnd::fill(const Chunk& plan, Worker& worker, BinChunk& out) {
   clear_chunk(out);
   for (uint32_t first = plan.first_item; first < plan.last_item;) {
     uint32_t last = first + 1;
-    while (last < plan.last_item && same_blocks(draws_[items_[first].draw], draws_[items_[last].draw])) ++last;
-    fill_group(std::span(items_).subspan(first, last - first), worker, out);
+    while (last < plan.last_item && draws_[items_[first].draw].state == draws_[items_[last].draw].state) ++last;
+    fill_list(std::span(items_).subspan(first, last - first), worker, out);
     first = last;
   }
   finish_chunk(grid_, out);
 }
 
-// Triangles of draws with the same state, bindings and resources: they share batches of vertices, and the vertices
-// themselves where index and instance are the same.
-void FrontEnd::fill_group(std::span<const WorkItem> items, Worker& worker, BinChunk& out) {
-  const DrawCall& blocks = draws_[items[0].draw];
-  const SetupState state = make_setup_state(*blocks.state, area_);
-  VertexStage& stage = worker.stage;
-  if (!stage.begin(blocks, *limits_)) throw std::bad_alloc();
-  const bool keep_vertices = keeps(Removal::vertices);
-  const uint64_t vertex_cost = lane_cost(*blocks.state->programs->vertex);
-
+// Triangles of draws with the same state are set up together. Those that have bindings and resources in common, too,
+// share batches of vertices, and the vertices themselves where index and instance are the same.
+void FrontEnd::fill_list(std::span<const WorkItem> items, Worker& worker, BinChunk& out) {
+  const SetupState state = make_setup_state(*draws_[items[0].draw].state, area_);
   TriangleList list;
   for (const WorkItem& item : items) list.count += item.triangles;
   worker.corners.resize((list.count + TriangleList::kPadding) * size_t{3});
   worker.runs.resize(list.count + TriangleList::kPadding);
-  uint32_t* corners = worker.corners.data();
-  uint32_t* runs = worker.runs.data();
+  list.first_vertex = static_cast<uint32_t>(out.vertices.size());
   const size_t first_run = out.runs.size();
+
+  VertexStage& stage = worker.stage;
+  stage.begin_list();
+  uint32_t done = 0;
   bool any_ledger = false;
+  const DrawCall* before = nullptr;
   for (const WorkItem& item : items) {
     const DrawCall& draw = draws_[item.draw];
-    if (out.runs.size() == first_run || out.runs.back().draw != item.draw) begin_run(state, item.draw, out);
-    const std::span<uint32_t> vertices{corners, size_t{3} * item.triangles};
-    assemble_triangles(draw, item.run, item.first_triangle, vertices);
-    const uint32_t instance = draw.first_instance + item.instance;
-    size_t run = vertices.size();
-    if (keep_vertices || has_distinct_vertices(draw)) {
-      stage.add_distinct(instance, vertices);
-    } else {
-      run = stage.add(instance, vertices);
+    if (before == nullptr || !same_blocks(*before, draw)) {
+      if (before != nullptr) stage.run(state, out);
+      if (!stage.begin(draw, *limits_)) throw std::bad_alloc();
     }
-    if (draw.ledger != nullptr) {
-      any_ledger = true;
-      add_vertices_to_ledger(draw.ledger, run, run * vertex_cost);
-      add_to_ledger(draw.ledger, Removal::vertices, vertices.size() - run, (vertices.size() - run) * vertex_cost);
-    }
-    corners += vertices.size();
-    runs = std::fill_n(runs, item.triangles, static_cast<uint32_t>(out.runs.size() - 1));
+    if (before != &draw) begin_run(state, item.draw, out);
+    before = &draw;
+    any_ledger |= draw.ledger != nullptr;
+    add_triangles(item, done, worker);
+    std::fill_n(worker.runs.data() + done, item.triangles, static_cast<uint32_t>(out.runs.size() - 1));
+    done += item.triangles;
   }
-  std::fill_n(corners, 3 * TriangleList::kPadding, 0u);
-  std::fill_n(runs, TriangleList::kPadding, 0u);
+  stage.run(state, out);
+  std::fill_n(worker.corners.data() + 3 * size_t{done}, 3 * TriangleList::kPadding, 0u);
+  std::fill_n(worker.runs.data() + done, TriangleList::kPadding, 0u);
 
   list.corners = worker.corners.data();
   list.runs = worker.runs.data();
-  list.first_vertex = static_cast<uint32_t>(out.vertices.size());
-  stage.run(state, out);
   list.positions = stage.positions();
   if (any_ledger) {
     worker.removed.assign(out.runs.size(), 0);
@@ -234,6 +225,25 @@ void FrontEnd::fill_group(std::span<const WorkItem> items, Worker& worker, BinCh
   for (size_t i = first_run; any_ledger && i < out.runs.size(); ++i) {
     add_to_ledger(draws_[out.runs[i].draw].ledger, Removal::triangles, worker.removed[i], 0);
   }
+}
+
+// Assembles an item's triangles and adds their vertices; `first`: triangle of the list.
+void FrontEnd::add_triangles(const WorkItem& item, uint32_t first, Worker& worker) const {
+  const DrawCall& draw = draws_[item.draw];
+  const std::span<uint32_t> vertices{worker.corners.data() + size_t{3} * first, size_t{3} * item.triangles};
+  assemble_triangles(draw, item.run, item.first_triangle, vertices);
+  const uint32_t instance = draw.first_instance + item.instance;
+  size_t run = vertices.size();
+  if (has_distinct_vertices(draw) || keeps(Removal::vertices)) {
+    worker.stage.add_distinct(instance, vertices);
+  } else {
+    run = worker.stage.add(instance, vertices);
+  }
+  if (draw.ledger == nullptr) return;
+  const uint64_t cost = lane_cost(*draw.state->programs->vertex);
+  const uint64_t saved = vertices.size() - run;
+  add_to_ledger(draw.ledger, run * cost);
+  add_to_ledger(draw.ledger, Removal::vertices, saved, saved * cost);
 }
 
 }  // namespace lapilli

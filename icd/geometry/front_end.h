@@ -46,7 +46,8 @@ class FrontEnd {
   void enter_draw();
   bool may_skip(const DrawCall& draw);
   void fill(const Chunk& plan, Worker& worker, BinChunk& out);
-  void fill_group(std::span<const WorkItem> items, Worker& worker, BinChunk& out);
+  void fill_list(std::span<const WorkItem> items, Worker& worker, BinChunk& out);
+  void add_triangles(const WorkItem& item, uint32_t first, Worker& worker) const;
 
   ThreadPool& pool_;
   std::span<const DrawCall> draws_;

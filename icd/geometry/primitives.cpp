@@ -25,7 +25,11 @@ uint32_t indices_inside(const IndexBuffer& indices, uint64_t first, uint64_t mos
 template <class T>
 void read(const IndexBuffer& indices, uint64_t first, std::span<uint32_t> out) {
   const uint32_t inside = indices_inside<T>(indices, first, out.size());
-  for (uint32_t i = 0; i < inside; ++i) out[i] = index_at<T>(indices, first + i);
+  if constexpr (sizeof(T) == sizeof(uint32_t)) {
+    if (inside > 0) std::memcpy(out.data(), indices.data + first * sizeof(T), inside * sizeof(T));
+  } else {
+    for (uint32_t i = 0; i < inside; ++i) out[i] = index_at<T>(indices, first + i);
+  }
   std::fill(out.begin() + inside, out.end(), 0u);
 }
 
@@ -48,6 +52,7 @@ void read_vertices(const DrawCall& draw, const VertexRun& run, uint64_t position
   }
   read_indices(draw.indices, run.first + position, out);
   const uint32_t offset = static_cast<uint32_t>(draw.vertex_offset);
+  if (offset == 0) return;
   for (uint32_t& index : out) index += offset;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 
 namespace lapilli {
 namespace {
@@ -168,7 +169,8 @@ void clip_and_append(const SetupState& state, const TriangleList& list, uint32_t
 
   float positions[3][4];
   for (uint32_t v = 0; v < 3; ++v) {
-    for (uint32_t i = 0; i < 4; ++i) positions[v][i] = list.positions.get(slots[v], i);
+    const ClipPosition& position = list.positions[slots[v]];
+    std::memcpy(positions[v], &position, sizeof position);
   }
   ClipPoint polygon[kMaxClippedVertices];
   const uint32_t count = clip_triangle(state.clip_space, positions, polygon);

@@ -41,19 +41,16 @@ enum OutCode : int32_t {
   kOutInvalid = 4,  // not finite: every triangle with it is dropped
 };
 
-// Vertices as the vertex program gave them: [batch][x y z w][lane].
-struct ClipPositions {
-  static constexpr size_t kBatchFloats = 4 * kBatchLanes;
-  const float* all = nullptr;
-  float get(uint32_t vertex, uint32_t component) const {
-    return all[vertex / kBatchLanes * kBatchFloats + component * kBatchLanes + vertex % kBatchLanes];
-  }
+// A vertex as the vertex program gave it.
+struct ClipPosition {
+  float x, y, z, w;
 };
 
 // Transforms the first `lanes` lanes of a vertex program's outputs ([slot][kBatchLanes]) and appends them to the
-// chunk's vertices, with their varyings. For all SIMD targets the same bits as x / w * half_width + centre_x … lane by
-// lane.
-void append_vertices(const SetupState& state, const float* outputs, uint32_t lanes, BinChunk& chunk);
+// chunk's vertices, with their varyings, and to `positions`. For all SIMD targets the same bits as
+// x / w * half_width + centre_x … lane by lane.
+void append_vertices(const SetupState& state, const float* outputs, uint32_t lanes, BinChunk& chunk,
+                     BinArray<ClipPosition>& positions);
 
 // --- triangles
 
@@ -64,9 +61,9 @@ struct TriangleList {
   const uint32_t* corners = nullptr;  // three each, [0] the provoking vertex; from first_vertex on
   const uint32_t* runs = nullptr;     // in BinChunk::runs
   uint32_t count = 0;
-  uint32_t first_vertex = 0;    // in BinChunk::vertices
-  ClipPositions positions;      // from first_vertex on
-  uint32_t* removed = nullptr;  // [run]: counts triangles that left nothing; null: nobody asks
+  uint32_t first_vertex = 0;                // in BinChunk::vertices
+  const ClipPosition* positions = nullptr;  // from first_vertex on
+  uint32_t* removed = nullptr;              // [run]: counts triangles that left nothing; null: nobody asks
 };
 
 // Appends what is left of the triangles after clipping and culling. Those without a pixel centre in `rect` are left out

@@ -22,16 +22,16 @@ struct Point {
   I x, y;
 };
 
-Point gather_point(const BinVertex* vertices, U slot) {
+HWY_INLINE Point gather_point(const BinVertex* vertices, U slot) {
   const U offset = shift_left<4>(slot) + shift_left<3>(slot);
   static_assert(sizeof(BinVertex) == 24);
   return {as_i(gather32(vertices, offset + broadcast(uint32_t{offsetof(BinVertex, x)}), all_lanes())),
           as_i(gather32(vertices, offset + broadcast(uint32_t{offsetof(BinVertex, y)}), all_lanes()))};
 }
 
-Point select(M m, Point yes, Point no) { return {select(m, yes.x, no.x), select(m, yes.y, no.y)}; }
-M no_lanes_unless(bool condition) { return condition ? all_lanes() : no_lanes(); }
-I ones_where(M m) { return as_i(mask_to_u(m)); }
+HWY_INLINE Point select(M m, Point yes, Point no) { return {select(m, yes.x, no.x), select(m, yes.y, no.y)}; }
+HWY_INLINE M no_lanes_unless(bool condition) { return condition ? all_lanes() : no_lanes(); }
+HWY_INLINE I ones_where(M m) { return as_i(mask_to_u(m)); }
 
 // Pixels [x0, x1) x [y0, y1).
 struct Bounds {
@@ -46,7 +46,7 @@ constexpr int32_t kSmallExtent = 1 << 13;
 struct Outside {
   I at00, at10, at01, at11;
 };
-void add_edge(Point from, Point to, Point centre, Outside& outside) {
+HWY_INLINE void add_edge(Point from, Point to, Point centre, Outside& outside) {
   const I dx = to.x - from.x;
   const I dy = to.y - from.y;
   const M owns = lt(dy, zero_i()) | (eq(dy, zero_i()) & gt(dx, zero_i()));
@@ -60,7 +60,7 @@ void add_edge(Point from, Point to, Point centre, Outside& outside) {
 }
 
 // Of small triangles with bounds of at most 2x2 pixels: those that cover none of them.
-M covers_nothing(Point p, Point q, Point r, const Bounds& bounds) {
+HWY_INLINE M covers_nothing(Point p, Point q, Point r, const Bounds& bounds) {
   const I half = broadcast(128);
   const Point centre = {as_i(shift_left<8>(as_u(bounds.x0))) + half, as_i(shift_left<8>(as_u(bounds.y0))) + half};
   Outside outside = {zero_i(), zero_i(), zero_i(), zero_i()};
@@ -81,8 +81,8 @@ struct Triangles {
   alignas(64) BinTriangle words[kVectorLanes];
 };
 
-void set_up(const SetupState& state, const TriangleList& list, uint32_t first, bool keep_all, const BinChunk& chunk,
-            Triangles& out) {
+HWY_INLINE void set_up(const SetupState& state, const TriangleList& list, uint32_t first, bool keep_all,
+                       const BinChunk& chunk, Triangles& out) {
   U slot[3];
   load_interleaved<3>(list.corners + 3 * size_t{first}, slot);
   const BinVertex* const vertices = chunk.vertices.data() + list.first_vertex;

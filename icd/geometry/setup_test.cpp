@@ -32,11 +32,12 @@ struct Fixture {
     const SetupState state = make_setup_state(bound, kArea);
     BinChunk chunk;
     begin_run(state, 0, chunk);
-    append_vertices(state, outputs, 3, chunk);
+    BinArray<ClipPosition> positions;
+    append_vertices(state, outputs, 3, chunk, positions);
     const uint32_t corners[3 + 3 * TriangleList::kPadding] = {0, 1, 2};
     const uint32_t runs[1 + TriangleList::kPadding] = {};
     removed = 0;
-    append_triangles(state, {corners, runs, 1, 0, {outputs}, &removed}, chunk);
+    append_triangles(state, {corners, runs, 1, 0, positions.data(), &removed}, chunk);
     finish_chunk({4, 2}, chunk);
     return chunk;
   }

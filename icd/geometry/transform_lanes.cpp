@@ -17,11 +17,14 @@ namespace HWY_NAMESPACE {
 namespace {
 
 // Everything but the varyings, of kVectorLanes vertices. `varyings`: of the first one.
-void transform(const SetupState& state, const float* outputs, uint32_t varyings, BinVertex* vertices) {
+HWY_INLINE void transform(const SetupState& state, const float* outputs, uint32_t varyings, BinVertex* vertices,
+                          ClipPosition* positions) {
   const F x = load<F>(outputs + (kSlotPosition + 0) * kBatchLanes);
   const F y = load<F>(outputs + (kSlotPosition + 1) * kBatchLanes);
   const F z = load<F>(outputs + (kSlotPosition + 2) * kBatchLanes);
   const F w = load<F>(outputs + (kSlotPosition + 3) * kBatchLanes);
+  const U position[4] = {as_u(x), as_u(y), as_u(z), as_u(w)};
+  store_interleaved<4>(position, positions);
   const M finite = is_finite(x) & is_finite(y) & is_finite(z) & is_finite(w);
   U code = select(finite, zero_u(), broadcast(uint32_t{kOutInvalid}));
   M inside = finite & gt(w, zero_f());
@@ -97,10 +100,10 @@ void transpose(const float* slots, uint32_t count, float* out) {
 
 // There is room for whole vectors.
 void transform_lanes(const SetupState& state, const float* outputs, uint32_t lanes, uint32_t first_varying,
-                     BinVertex* vertices, float* varyings) {
+                     BinVertex* vertices, float* varyings, ClipPosition* positions) {
   const uint32_t count = static_cast<uint32_t>(state.varyings.size());
   for (uint32_t lane = 0; lane < lanes; lane += kVectorLanes) {
-    transform(state, outputs + lane, first_varying + lane * count, vertices + lane);
+    transform(state, outputs + lane, first_varying + lane * count, vertices + lane, positions + lane);
     transpose(outputs + kSlotVaryings * kBatchLanes + lane, count, varyings + lane * count);
   }
 }
@@ -112,17 +115,20 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace lapilli {
 
-void append_vertices(const SetupState& state, const float* outputs, uint32_t lanes, BinChunk& chunk) {
-  using Transform = void(const SetupState&, const float*, uint32_t, uint32_t, BinVertex*, float*);
+void append_vertices(const SetupState& state, const float* outputs, uint32_t lanes, BinChunk& chunk,
+                     BinArray<ClipPosition>& positions) {
+  using Transform = void(const SetupState&, const float*, uint32_t, uint32_t, BinVertex*, float*, ClipPosition*);
   static constexpr PerTarget<Transform> kTable = LAPILLI_PER_TARGET(transform_lanes);
-  const size_t vertices = chunk.vertices.size(), varyings = chunk.varyings.size();
+  const size_t vertices = chunk.vertices.size(), varyings = chunk.varyings.size(), done = positions.size();
   const size_t count = state.varyings.size();
   chunk.vertices.reserve(vertices + kBatchLanes);
   chunk.varyings.reserve(varyings + kBatchLanes * count);
+  positions.reserve(done + kBatchLanes);
   for_target(kTable)(state, outputs, lanes, static_cast<uint32_t>(varyings), chunk.vertices.data() + vertices,
-                     chunk.varyings.data() + varyings);
+                     chunk.varyings.data() + varyings, positions.data() + done);
   chunk.vertices.resize(vertices + lanes);
   chunk.varyings.resize(varyings + lanes * count);
+  positions.resize(done + lanes);
 }
 
 }  // namespace lapilli

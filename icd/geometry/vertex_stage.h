@@ -13,17 +13,20 @@ namespace lapilli {
 
 class VertexStage {
  public:
-  // Starts a list of triangles of draws with the same state, bindings and resources. False: out of memory.
+  // Starts a list of triangles, whose vertices are counted from 0 on.
+  void begin_list();
+  // From here on vertices belong to draws with these bindings and resources; run() has been called for those before.
+  // False: out of memory.
   bool begin(const DrawCall& draw, ExecutionLimits& limits);
-  // Turns vertex indices (firstVertex or vertexOffset included) into slots: consecutive numbers from 0 on. A vertex
-  // that was there before is not run again unless it has been too long ago. `instance`: firstInstance included. At most
-  // kMostVertices between begin() and run(). Returns how many are new.
+  // Turns vertex indices (firstVertex or vertexOffset included) into their numbers in the list. A vertex that was there
+  // before since begin() is not run again unless another one has taken its place in the table. `instance`:
+  // firstInstance included. At most kMostVertices in a list. Returns how many are new.
   uint32_t add(uint32_t instance, std::span<uint32_t> vertices);
   // The same for vertices that are known to be distinct.
   void add_distinct(uint32_t instance, std::span<uint32_t> vertices);
-  // Runs all vertices that were added and appends them to the chunk.
+  // Runs the vertices that were added since begin() and appends them to the chunk.
   void run(const SetupState& state, BinChunk& chunk);
-  ClipPositions positions() const { return {positions_.data()}; }
+  const ClipPosition* positions() const { return positions_.data(); }
 
   static constexpr uint32_t kMostVertices = 1u << 14;
 
@@ -34,14 +37,16 @@ class VertexStage {
 
   const DrawCall* draw_ = nullptr;
   Execution execution_;
-  // By slot: vertex and instance index.
+  uint32_t first_ = 0;  // in the list, of the vertices since begin()
+  // Of those: vertex and instance index. There is always room for kMostVertices.
   BinArray<uint32_t> vertex_, instance_;
-  // By the low bits of a vertex index: the slot that it may be in. What `vertex_` says of the slot decides, so that
-  // nothing has to be cleared.
+  // By the low bits of a vertex index: the slot (place in vertex_) that it may have. What vertex_ says of it decides,
+  // so that nothing has to be cleared.
   std::vector<uint16_t> last_slot_;
-  uint32_t instance_first_ = 0;  // slot from which on all have the present instance
-  BinArray<float> positions_;    // ClipPositions
-  std::vector<Line> outputs_;    // [slot][64 lanes]
+  uint32_t instance_first_ = 0;       // slot from which on all have the present instance
+  BinArray<ClipPosition> positions_;  // of the list
+  VertexBatch batch_{};
+  std::vector<Line> outputs_;  // [slot][64 lanes]
 };
 
 }  // namespace lapilli
