@@ -50,7 +50,7 @@ json turn(SceneRenderer& renderer, double milliseconds, int most) {
           {"records", records},
           {"cpu", own / count},
           {"others", std::max(others / (wall * cpus), 0.0)},
-          {"switches", static_cast<double>(after.switches - before.switches) * 1e3 / wall}};
+          {"waited", std::max(after.waited_ms - before.waited_ms, 0.0) / wall}};
 }
 
 json save_picture(const SceneRenderer& renderer, const std::string& path) {

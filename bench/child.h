@@ -18,7 +18,8 @@ std::vector<std::string> arguments_of(const ChildOptions& options);
 // Says {"device", "instance_device" [ms], "resident_kb", "anonymous_kb", "peak_kb"} and, with a scene, either
 // {"missing"} or {"pipelines", "first_record", "first_frame"} [ms] beside it. Then obeys:
 //   turn MS FRAMES  draws for MS milliseconds, at most FRAMES frames: {"frames": [ms…], "records": [ms…], "cpu" [ms a
-//                   frame], "others" [share of all CPUs that others used], "switches" [of this process, a second]}
+//                   frame], "others" [share of all CPUs that others used], "waited" [share of the time that threads of
+//                   this process were ready and got none]}
 //   memory          {"resident_kb", "anonymous_kb", "peak_kb"}
 //   picture FILE    writes the last frame as a PNG: {"colors": how many different ones, up to 1,000}
 int child_main(const ChildOptions& options);

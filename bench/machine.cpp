@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <functional>
 #include <memory>
@@ -18,73 +20,126 @@ using Clock = std::chrono::steady_clock;
 // Whatever is computed into this is not optimized away.
 std::atomic<uint32_t> sink;
 
-#if defined(__x86_64__)
-#define LAPILLI_BENCH_WIDE __attribute__((target("avx512f")))
-#define LAPILLI_BENCH_FMA __attribute__((target("avx2,fma")))
-enum class Isa { plain, fma, wide };
-Isa isa() {
-  if (__builtin_cpu_supports("avx512f")) return Isa::wide;
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? Isa::fma : Isa::plain;
-}
-#endif
+// The kernels that need vectors, as wide as the machine has them.
+struct Job {
+  enum Kind { arithmetic, update, sum } kind;
+  int rounds = 1;
+  float* data = nullptr;  // aligned to 64 bytes
+  size_t count = 0;       // floats, a multiple of 64
+};
 
 typedef float Lanes4 __attribute__((vector_size(16)));
 typedef float Lanes8 __attribute__((vector_size(32)));
 typedef float Lanes16 __attribute__((vector_size(64)));
 
-// `count` rounds of independent chains, enough to cover the latency of two fma units. Returns the operations done.
 template <typename Lanes>
-[[gnu::always_inline]] inline double multiply_add(int count) {
+[[gnu::always_inline]] inline void run(const Job& job) {
+  // Independent chains, enough to cover the latency of two fma units.
   constexpr int kChains = 12;
   Lanes chains[kChains];
   for (int c = 0; c < kChains; ++c) chains[c] = Lanes{} + static_cast<float>(c);
   const Lanes factor = Lanes{} + 0.999f, term = Lanes{} + 0.001f;
-  for (int i = 0; i < count; ++i) {
+  auto* data = reinterpret_cast<Lanes*>(job.data);
+  const size_t vectors = job.count / (sizeof(Lanes) / sizeof(float));
+  if (job.kind == Job::arithmetic) {
+    for (int round = 0; round < job.rounds; ++round) {
 #pragma GCC unroll 12
-    for (int c = 0; c < kChains; ++c) chains[c] = chains[c] * factor + term;
+      for (int c = 0; c < kChains; ++c) chains[c] = chains[c] * factor + term;
+    }
+  } else if (job.kind == Job::update) {
+    for (int round = 0; round < job.rounds; ++round) {
+#pragma GCC unroll 4
+      for (size_t i = 0; i < vectors; ++i) data[i] += term;
+      asm volatile("" ::: "memory");  // each round really reads and writes
+    }
+  } else {
+    for (size_t i = 0; i < vectors; i += 4) {
+#pragma GCC unroll 4
+      for (size_t k = 0; k < 4; ++k) chains[k] += data[i + k];
+    }
   }
   Lanes sum = {};
   for (int c = 0; c < kChains; ++c) sum += chains[c];
-  sink = static_cast<uint32_t>(sum[0]);
-  return 1.0 * count * kChains * static_cast<double>(sizeof(Lanes) / sizeof(float));
+  sink = static_cast<uint32_t>(std::min(std::abs(sum[0]), 1e9f));
 }
 
 #if defined(__x86_64__)
-LAPILLI_BENCH_WIDE double multiply_add_wide(int count) { return multiply_add<Lanes16>(count); }
-LAPILLI_BENCH_FMA double multiply_add_fma(int count) { return multiply_add<Lanes8>(count); }
+__attribute__((target("avx512f"))) void run_wide(const Job& job) { run<Lanes16>(job); }
+__attribute__((target("avx2,fma"))) void run_fma(const Job& job) { run<Lanes8>(job); }
 #endif
 
-double multiply_add_best(int count) {
+void run_best(const Job& job) {
 #if defined(__x86_64__)
-  if (isa() == Isa::wide) return multiply_add_wide(count);
-  if (isa() == Isa::fma) return multiply_add_fma(count);
+  if (__builtin_cpu_supports("avx512f")) return run_wide(job);
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return run_fma(job);
 #endif
-  return multiply_add<Lanes4>(count);
+  run<Lanes4>(job);
+}
+
+int lanes() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512f")) return 16;
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return 8;
+#endif
+  return 4;
+}
+
+struct AlignedDelete {
+  void operator()(float* data) const { std::free(data); }
+};
+using Floats = std::unique_ptr<float, AlignedDelete>;
+// `count` ones; a multiple of 64.
+Floats floats(size_t count) {
+  Floats data(static_cast<float*>(std::aligned_alloc(64, std::max(count, size_t{64}) * sizeof(float))));
+  std::fill_n(data.get(), count, 1.0f);
+  return data;
 }
 
 constexpr uint32_t kTableWords = 1u << 19;  // of 8 bytes: 4 MB
 
-// Neighbouring rows of 1,024 texels, as a bilinear filter reads them.
-double load(const uint64_t* table, int count) {
+// Two neighbouring rows of 1,024 texels at places from a list, as a bilinear filter reads them; two loads a place.
+void load(const uint64_t* table, const std::vector<uint32_t>& places, int rounds) {
   uint64_t sum = 0;
-  uint32_t place = 0;
-  for (int i = 0; i < count; ++i) {
-    sum += table[place % kTableWords];
-    sum ^= table[(place + 512) % kTableWords];
-    place += 1 + (i & 63 ? 0u : 448u);
+  for (int round = 0; round < rounds; ++round) {
+    const uint64_t* here = table + (static_cast<uint32_t>(round) % 256) * 1024;
+#pragma GCC unroll 8
+    for (const uint32_t place : places) sum += here[place] ^ here[place + 512];
   }
   sink = static_cast<uint32_t>(sum);
-  return 2.0 * count;
 }
 
-// Adds to every word of 16 KB. Returns the bytes read and written.
-double update(std::vector<uint32_t>& words, int count) {
-  for (int i = 0; i < count; ++i) {
-    for (uint32_t& word : words) word += 0x01010101u;
-    asm volatile("" ::: "memory");  // each round really reads and writes
+// What a queue does for a small draw at the least, one after the other: reads a command of 64 bytes, calls what it
+// names, keeps its constants and sets up a triangle.
+struct Command {
+  uint32_t handler;
+  float constants[15];
+};
+struct DrawState {
+  float constants[15] = {};
+  float edges[3][3] = {};
+};
+template <int kKind>
+void obey(const Command& command, DrawState& state) {
+  std::memcpy(state.constants, command.constants, sizeof(state.constants));
+  float x[3], y[3];
+  for (int i = 0; i < 3; ++i) {
+    x[i] = command.constants[2 * i] * command.constants[8] + command.constants[9];
+    y[i] = command.constants[2 * i + 1] * command.constants[10] + command.constants[11];
   }
-  sink = words[5];
-  return 8.0 * static_cast<double>(words.size()) * count;
+  const float area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]) + static_cast<float>(kKind);
+  const float inverse = 1.0f / area;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    state.edges[i][0] += (y[i] - y[j]) * inverse;
+    state.edges[i][1] += (x[j] - x[i]) * inverse;
+    state.edges[i][2] += (x[i] * y[j] - x[j] * y[i]) * inverse;
+  }
+}
+void obey_all(const std::vector<Command>& commands) {
+  static constexpr void (*kHandlers[])(const Command&, DrawState&) = {obey<1>, obey<2>, obey<3>, obey<4>};
+  DrawState state;
+  for (const Command& command : commands) kHandlers[command.handler](command, state);
+  sink = static_cast<uint32_t>(std::min(std::abs(state.edges[0][0]), 1e9f));
 }
 
 // Runs `work(thread)` on all threads at once, `repeats` times; the shortest time from the first start to the last end,
@@ -123,23 +178,17 @@ double best_seconds(int threads, int repeats, const std::function<void(int)>& wo
 
 // Writes and reads so many bytes once; seconds.
 double stream_seconds(int threads, double written, double read) {
-  struct Part {
-    std::vector<uint64_t> target, source;
-  };
-  std::vector<Part> parts(static_cast<size_t>(threads));
-  for (Part& part : parts) {
-    part.target.resize(static_cast<size_t>(written / threads / 8));
-    part.source.assign(static_cast<size_t>(read / threads / 8), 1);
+  const auto share = [&](double bytes) { return static_cast<size_t>(bytes / threads / sizeof(float)) / 64 * 64; };
+  std::vector<Floats> targets, sources;
+  for (int t = 0; t < threads; ++t) {
+    targets.push_back(floats(share(written)));
+    sources.push_back(floats(share(read)));
   }
-  const int repeats = std::clamp(static_cast<int>(2e8 / (written + read)), 5, 40);
+  const int repeats = std::clamp(static_cast<int>(3e8 / (written + read)), 8, 40);
   return best_seconds(threads, repeats, [&](int thread) {
-    Part& part = parts[static_cast<size_t>(thread)];
-    if (!part.target.empty()) std::memset(part.target.data(), thread + 1, part.target.size() * 8);
-    uint64_t sums[8] = {};
-    for (size_t i = 0; i + 8 <= part.source.size(); i += 8) {
-      for (size_t k = 0; k < 8; ++k) sums[k] += part.source[i + k];
-    }
-    for (uint64_t sum : sums) sink = static_cast<uint32_t>(sum);
+    const auto t = static_cast<size_t>(thread);
+    std::memset(targets[t].get(), thread + 1, share(written) * sizeof(float));
+    run_best({Job::sum, 1, sources[t].get(), share(read)});
   });
 }
 
@@ -148,23 +197,35 @@ double stream_seconds(int threads, double written, double read) {
 Machine::Machine() : threads_(std::max(1, static_cast<int>(std::thread::hardware_concurrency()))) { measure(); }
 
 void Machine::measure() {
-  constexpr int kRepeats = 12;
-  const auto rate = [&](double done, const std::function<void(int)>& work) {
-    return done * threads_ / best_seconds(threads_, kRepeats, work);
+  constexpr int kRepeats = 10;
+  const auto improve = [&](double& rate, double done, const std::function<void(int)>& work) {
+    rate = std::max(rate, done * threads_ / best_seconds(threads_, kRepeats, work));
   };
   constexpr int kRounds = 30000;
-  rates_.operations =
-      std::max(rates_.operations, rate(multiply_add_best(1) * kRounds, [](int) { multiply_add_best(kRounds); }));
+  improve(rates_.operations, 12.0 * lanes() * kRounds, [](int) { run_best({Job::arithmetic, kRounds}); });
+
+  constexpr size_t kWords = 4096;
+  constexpr int kUpdates = 1000;
+  std::vector<Floats> words;
+  for (int t = 0; t < threads_; ++t) words.push_back(floats(kWords));
+  improve(rates_.cached, 8.0 * kWords * kUpdates, [&](int thread) {
+    run_best({Job::update, kUpdates, words[static_cast<size_t>(thread)].get(), kWords});
+  });
 
   const std::vector<uint64_t> table(kTableWords, 3);
-  constexpr int kLoads = 500000;
-  rates_.loads = std::max(rates_.loads, rate(2.0 * kLoads, [&](int) { load(table.data(), kLoads); }));
+  std::vector<uint32_t> places(2048);
+  for (uint32_t i = 0; i < places.size(); ++i) places[i] = i * 37 / 100 + i % 64 / 8 * 512;
+  constexpr int kLoads = 500;
+  improve(rates_.loads, 2.0 * static_cast<double>(places.size()) * kLoads,
+          [&](int) { load(table.data(), places, kLoads); });
 
-  constexpr int kUpdates = 300;
-  std::vector<std::vector<uint32_t>> words(static_cast<size_t>(threads_), std::vector<uint32_t>(4096));
-  rates_.cached =
-      std::max(rates_.cached,
-               rate(8.0 * 4096 * kUpdates, [&](int thread) { update(words[static_cast<size_t>(thread)], kUpdates); }));
+  std::vector<Command> commands(10000);
+  for (uint32_t i = 0; i < commands.size(); ++i) {
+    commands[i].handler = (i * 0x9E3779B1u) >> 30;
+    for (uint32_t k = 0; k < 15; ++k) commands[i].constants[k] = 0.1f + static_cast<float>((i * 7 + k * 13) % 29);
+  }
+  rates_.draws = std::max(
+      rates_.draws, static_cast<double>(commands.size()) / best_seconds(1, kRepeats, [&](int) { obey_all(commands); }));
 }
 
 Machine::Limit Machine::limit_of(const Work& work) const {
@@ -178,6 +239,7 @@ Machine::Limit Machine::limit_of(const Work& work) const {
   take(work.cached_bytes / rates_.cached, "cache");
   take(work.operations / rates_.operations, "arithmetic");
   take(work.loads / rates_.loads, "loads");
+  take(work.draws / rates_.draws, "draws");
   return limit;
 }
 

@@ -12,6 +12,7 @@ struct Rates {
   double operations = 0;  // fma on float32, a second
   double loads = 0;       // of 8 bytes at computed places in 4 MB, a second
   double cached = 0;      // bytes read and written within 16 KB, a second
+  double draws = 0;       // commands of small draws, read and set up one after the other on one CPU, a second
 };
 
 class Machine {

@@ -16,7 +16,8 @@ using nlohmann::json;
 struct Taken {
   std::unique_ptr<run::Process> process;
   std::vector<double> pipelines, first_frames;
-  std::vector<double> frames, records, cpu, others;  // one for each turn
+  std::vector<double> frames, records, cpu, others, waited;  // one for each turn
+  std::vector<bool> disturbed;
 };
 
 run::Launch launch_of(const Contestant& contestant, const ChildOptions& options, const Plan& plan) {
@@ -61,27 +62,35 @@ void take_turn(Result& result, Taken& taken, double milliseconds, int frames, bo
     taken.records.push_back(run::median(reply->at("records")));
     taken.cpu.push_back(reply->at("cpu"));
     taken.others.push_back(reply->at("others"));
+    taken.waited.push_back(reply->at("waited"));
+    taken.disturbed.push_back(taken.others.back() > kDisturbance && taken.waited.back() > kDisturbance);
   }
 }
 
-// Turns in which others took the machine are left out if at least half of them are not such.
-std::vector<double> undisturbed(const std::vector<double>& values, const std::vector<double>& others) {
-  std::vector<double> kept;
+bool mostly(const std::vector<bool>& disturbed) {
+  return 2 * std::count(disturbed.begin(), disturbed.end(), true) >= static_cast<std::ptrdiff_t>(disturbed.size());
+}
+
+// The median of the turns; those in which others took the machine are left out, unless most are such.
+double calm_median(const std::vector<double>& values, const std::vector<bool>& disturbed) {
+  if (mostly(disturbed)) return run::median(values);
+  std::vector<double> calm;
   for (size_t i = 0; i < values.size(); ++i) {
-    if (others[i] <= kOthers) kept.push_back(values[i]);
+    if (!disturbed[i]) calm.push_back(values[i]);
   }
-  return 2 * kept.size() >= values.size() ? kept : values;
+  return run::median(calm);
 }
 
 void finish(Result& result, Taken& taken, const std::string& picture) {
   result.pipelines = run::median(taken.pipelines);
   result.first_frame = run::median(taken.first_frames);
   result.turns = taken.frames;
-  result.frame = run::median(undisturbed(taken.frames, taken.others));
-  result.record = run::median(undisturbed(taken.records, taken.others));
-  result.cpu = run::median(undisturbed(taken.cpu, taken.others));
+  result.frame = calm_median(taken.frames, taken.disturbed);
+  result.record = calm_median(taken.records, taken.disturbed);
+  result.cpu = calm_median(taken.cpu, taken.disturbed);
   result.others = run::median(taken.others);
-  result.disturbed = result.others > kOthers;
+  result.waited = run::median(taken.waited);
+  result.disturbed = mostly(taken.disturbed);
   if (taken.process->tell("memory")) {
     if (const auto memory = taken.process->answer()) {
       result.resident_kb = memory->at("resident_kb");

@@ -40,10 +40,14 @@ struct Result {
   double resident_kb = 0, anonymous_kb = 0, peak_kb = 0;  // after the last frame
   std::vector<double> turns;                              // the median frame of each turn
   double others = 0;       // the median turn's share of all CPUs that other processes used
-  bool disturbed = false;  // that share was above kOthers in more than half of the turns
+  double waited = 0;       // the median turn's share of the time that its own threads waited for a CPU
+  bool disturbed = false;  // at least half of the turns were
   int colors = 0;          // in the picture, if one was asked for
 };
-constexpr double kOthers = 0.1;
+// A turn counts as disturbed if others used more than this share of the CPUs and threads of its own waited for longer
+// than this share of the time. Drivers with more threads than CPUs wait for themselves; and what others do on a CPU
+// that a driver leaves idle does not matter.
+constexpr double kDisturbance = 0.1;
 
 struct Series {
   std::string scene;

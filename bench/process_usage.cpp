@@ -1,10 +1,11 @@
-// Reads getrusage(), /proc/stat and /proc/self/status (see proc(5)).
+// Reads getrusage(), /proc/stat, /proc/self/status and schedstat of the threads (see proc(5)).
 #include "process_usage.h"
 
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <array>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -19,7 +20,13 @@ Usage usage_now() {
     return 1e3 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_usec);
   };
   usage.process_ms = ms(self.ru_utime) + ms(self.ru_stime);
-  usage.switches = self.ru_nivcsw;
+  std::error_code ignored;
+  for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task", ignored)) {
+    std::ifstream schedstat(thread.path() / "schedstat");
+    double ran = 0, waited = 0;  // ns
+    schedstat >> ran >> waited;
+    usage.waited_ms += 1e-6 * waited;
+  }
 
   std::ifstream stat("/proc/stat");
   std::string name;

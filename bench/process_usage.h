@@ -6,7 +6,7 @@ namespace lapilli::bench {
 struct Usage {
   double process_ms = 0;  // user and system time of all threads of this process
   double machine_ms = 0;  // the same of all processes, and what the hypervisor took, over all CPUs; in steps of 10 ms
-  long switches = 0;      // times that this process had to give a CPU away
+  double waited_ms = 0;   // that its threads, those that still run, were ready and got no CPU
 };
 Usage usage_now();
 

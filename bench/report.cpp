@@ -230,6 +230,7 @@ json results(const Findings& found, const std::vector<Goal>& goals) {
                       {"anonymous_kb", r.anonymous_kb},
                       {"peak_kb", r.peak_kb},
                       {"others", r.others},
+                      {"waited", r.waited},
                       {"disturbed", r.disturbed},
                       {"frame_over_limit", r.frame / s.limit.ms}});
       } else {
@@ -269,7 +270,8 @@ json results(const Findings& found, const std::vector<Goal>& goals) {
             {"threads", found.threads},
             {"operations_per_s", found.rates.operations},
             {"loads_per_s", found.rates.loads},
-            {"cached_bytes_per_s", found.rates.cached}}},
+            {"cached_bytes_per_s", found.rates.cached},
+            {"draws_per_s", found.rates.draws}}},
           {"goals", lines},
           {"series", series},
           {"starts", starts},
@@ -301,7 +303,9 @@ std::string line(const Series& series) {
   columns(&Result::cpu);
   double others = 0;
   for (const Result& result : series.results) others = std::max(others, result.others);
-  text += format(" | %3.0f %%\n", 100 * others);
+  const bool marked =
+      std::any_of(series.results.begin(), series.results.end(), [](const Result& r) { return r.disturbed; });
+  text += format(" | %3.0f %%%s\n", 100 * others, marked ? " disturbed" : "");
   for (const Result& result : series.results) {
     if (!result.absent.empty()) text += "    " + result.driver + ": " + result.absent + "\n";
   }
@@ -325,18 +329,21 @@ json page(const Findings& found) {
     if (!result.device.empty()) devices += (devices.empty() ? "" : "; ") + result.driver + ": " + result.device;
   }
   const auto giga = [](double value) { return number(1e-9 * value, 0); };
-  const json notes = {
-      run::cpu_name() + ", " + std::to_string(found.threads) + " hardware threads. " + devices + ".",
-      "Medians of " + std::to_string(found.plan.rounds) + " turns of " + number(found.plan.turn_ms, 0) +
-          " ms, drivers alternating; pipelines and first frames of " + std::to_string(found.plan.starts) +
-          " fresh processes, shader caches off. A frame is submission to fence; recording is apart. A "
-          "turn in which other processes "
-          "used more than " +
-          number(100 * kOthers, 0) +
-          " % of the CPUs is left out; where that was half of them or more, the figure is marked.",
-      "Limits, measured in the same run on all threads: " + giga(found.rates.operations) +
-          " G operations/s (an fma is one), " + giga(found.rates.loads) + " G loads/s, " + giga(found.rates.cached) +
-          " GB/s within 16 KB; memory is measured with buffers as large as the scene's own."};
+  const json notes = {run::cpu_name() + ", " + std::to_string(found.threads) + " hardware threads. " + devices + ".",
+                      "Medians of " + std::to_string(found.plan.rounds) + " turns of " + number(found.plan.turn_ms, 0) +
+                          " ms, drivers alternating; pipelines and first frames of " +
+                          std::to_string(found.plan.starts) +
+                          " fresh processes, shader caches off. A frame is submission to fence; recording is apart. "
+                          "Turns in which other "
+                          "processes used more than " +
+                          number(100 * kDisturbance, 0) +
+                          " % of the CPUs while the driver's threads waited for one are left out; where that was half "
+                          "of them or more, the "
+                          "figure is marked.",
+                      "Limits, measured in the same run on all threads: " + giga(found.rates.operations) +
+                          " G operations/s (an fma is one), " + giga(found.rates.loads) + " G loads/s, " +
+                          giga(found.rates.cached) + " GB/s within 16 KB, " + number(1e-6 * found.rates.draws, 0) +
+                          " M draws/s; memory is measured with buffers as large as the scene's own."};
   json sections = json::array({{{"heading", "What must be true"}, {"blocks", {block_of(goal_cells(goals))}}}});
   std::vector<std::string> sizes;
   for (const Series& series : found.series) {

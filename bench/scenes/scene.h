@@ -22,6 +22,7 @@ struct Work {
   double read_bytes = 0;     // vertices, indices, buffers; once each
   double cached_bytes = 0;   // read and written in a tile that stays in the cache
   double operations = 0;     // arithmetic on float32, an fma counting as one
+  double draws = 0;          // each with its state and a triangle, in order
   double loads = 0;          // from places that are computed; two texels side by side are one
 };
 
