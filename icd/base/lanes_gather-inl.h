@@ -79,7 +79,36 @@ HWY_API void gather_words(const void* base, U byte_offsets, U* words) {
 
 #endif
 
-// The same where m is set; the other lanes become 0 and read what a lane of m reads.
+// The 16 bytes at each of the pointers, one for each four lanes.
+HWY_API U load_quads(const void* const* quads) {
+#if HWY_TARGET == HWY_AVX3
+  __m512i v = _mm512_castsi128_si512(_mm_loadu_si128(static_cast<const __m128i*>(quads[0])));
+  v = _mm512_inserti32x4(v, _mm_loadu_si128(static_cast<const __m128i*>(quads[1])), 1);
+  v = _mm512_inserti32x4(v, _mm_loadu_si128(static_cast<const __m128i*>(quads[2])), 2);
+  return U{_mm512_inserti32x4(v, _mm_loadu_si128(static_cast<const __m128i*>(quads[3])), 3)};
+#elif HWY_TARGET == HWY_AVX2
+  const __m256i v = _mm256_castsi128_si256(_mm_loadu_si128(static_cast<const __m128i*>(quads[0])));
+  return U{_mm256_inserti128_si256(v, _mm_loadu_si128(static_cast<const __m128i*>(quads[1])), 1)};
+#else
+  return load_unaligned<U>(quads[0]);
+#endif
+}
+// Stores those of four words, 16 bytes aligned, whose bit is set; touches no others.
+HWY_API void store_quad(const uint32_t* words, uint32_t lanes, void* quad) {
+#if HWY_TARGET == HWY_AVX3
+  _mm_mask_storeu_epi32(quad, static_cast<__mmask8>(lanes), _mm_load_si128(reinterpret_cast<const __m128i*>(words)));
+#else
+  if (lanes == 15) {
+    __builtin_memcpy(quad, words, 16);
+    return;
+  }
+  for (int lane = 0; lane < 4; ++lane) {
+    if ((lanes >> lane & 1) != 0) __builtin_memcpy(static_cast<char*>(quad) + 4 * lane, words + lane, 4);
+  }
+#endif
+}
+
+// gather_words where m is set; the other lanes become 0 and read what a lane of m reads.
 template <size_t kWords>
 HWY_API void gather_words(const void* base, U byte_offsets, M m, U* words) {
   if (all(m)) return gather_words<kWords>(base, byte_offsets, words);

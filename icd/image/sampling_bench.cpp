@@ -58,7 +58,9 @@ void sample(benchmark::State& state, VkFormat format, VkFilter filter, VkSampler
   state.counters["lanes/s"] = benchmark::Counter(64.0, benchmark::Counter::kIsIterationInvariantRate);
 }
 
-void store_and_load(benchmark::State& state, VkFormat format, bool whole_block) {
+// `sparse`: as tiny triangles cover the quads.
+constexpr uint64_t kSparseLanes = 0x13F78C21F3718E42;
+void store_and_load(benchmark::State& state, VkFormat format, bool whole_block, bool sparse = false) {
   if (!choose(state)) return;
   const TexelFunctions& functions = texel_functions(*find_format(format));
   std::vector<std::byte> plane(kTileTexels * 16);
@@ -68,9 +70,10 @@ void store_and_load(benchmark::State& state, VkFormat format, bool whole_block) 
   uint16_t quads[16];
   for (uint16_t q = 0; q < 16; ++q) quads[q] = static_cast<uint16_t>(whole_block ? q : q * 32);
   const QuadPlaces places = {quads, whole_block};
+  const uint64_t lanes = sparse ? kSparseLanes : ~uint64_t{0};
   for (auto _ : state) {
-    functions.store_quads(plane.data(), places, ~uint64_t{0}, batch.in, 15);
-    functions.load_quads(plane.data(), places, ~uint64_t{0}, batch.out);
+    functions.store_quads(plane.data(), places, lanes, batch.in, 15);
+    functions.load_quads(plane.data(), places, lanes, batch.out);
   }
 }
 
@@ -157,6 +160,7 @@ BENCHMARK_CAPTURE(sample, rgba32f_linear, VK_FORMAT_R32G32B32A32_SFLOAT, VK_FILT
 BENCHMARK_CAPTURE(store_and_load, rgba8, VK_FORMAT_R8G8B8A8_UNORM, false)->DenseRange(0, 2);
 BENCHMARK_CAPTURE(store_and_load, rgba32f, VK_FORMAT_R32G32B32A32_SFLOAT, false)->DenseRange(0, 2);
 BENCHMARK_CAPTURE(store_and_load, depth, VK_FORMAT_D32_SFLOAT, false)->DenseRange(0, 2);
+BENCHMARK_CAPTURE(store_and_load, rgba8_sparse, VK_FORMAT_R8G8B8A8_UNORM, false, true)->DenseRange(0, 2);
 BENCHMARK_CAPTURE(store_and_load, rgba8_block, VK_FORMAT_R8G8B8A8_UNORM, true)->DenseRange(0, 2);
 BENCHMARK_CAPTURE(store_and_load, rgba32f_block, VK_FORMAT_R32G32B32A32_SFLOAT, true)->DenseRange(0, 2);
 BENCHMARK_CAPTURE(store_and_load, depth_block, VK_FORMAT_D32_SFLOAT, true)->DenseRange(0, 2);

@@ -34,30 +34,22 @@ HWY_API uint64_t live_quads(uint64_t lanes) {
 }
 
 template <size_t kWords>
-HWY_API void read_quad(const std::byte* texels, int quad, BatchWords<kWords>& words) {
-  if constexpr (kWords == 1) {
-    std::memcpy(&words.word[0][quad * 4], texels, 16);
-  } else {
-    for (int lane = quad * 4; lane < quad * 4 + 4; ++lane) {
-      for (size_t w = 0; w < kWords; ++w, texels += 4) std::memcpy(&words.word[w][lane], texels, 4);
-    }
-  }
-}
-
-template <size_t kWords>
 void read_quads(const std::byte* plane, const QuadPlaces& places, uint64_t lanes, BatchWords<kWords>& words) {
-  const uint16_t* const quad_index = places.quad;
-  constexpr size_t quad_bytes = 16 * kWords;
+  static constexpr std::byte kDeadQuad[16 * kWords] = {};
   const uint64_t live = live_quads(lanes);
-  if (live == kOneLaneOfEachQuad) {
-    for (int quad = 0; quad < kQuads; ++quad) read_quad<kWords>(plane + quad_index[quad] * quad_bytes, quad, words);
-    return;
-  }
+  const void* quads[kQuads];
   for (int quad = 0; quad < kQuads; ++quad) {
-    if ((live >> (quad * 4) & 1) != 0) {
-      read_quad<kWords>(plane + quad_index[quad] * quad_bytes, quad, words);
-    } else {
-      for (size_t w = 0; w < kWords; ++w) std::memset(&words.word[w][quad * 4], 0, 16);
+    const std::byte* const texels = plane + places.quad[quad] * 16 * kWords;
+    quads[quad] = (live >> (quad * 4) & 1) != 0 ? texels : kDeadQuad;
+  }
+  if constexpr (kWords == 1) {
+    for (int i = 0; i < kLanes; i += kVectorLanes) store(load_quads(quads + i / 4), &words.word[0][i]);
+  } else {
+    for (int quad = 0; quad < kQuads; ++quad) {
+      const std::byte* texel = static_cast<const std::byte*>(quads[quad]);
+      for (int lane = quad * 4; lane < quad * 4 + 4; ++lane) {
+        for (size_t w = 0; w < kWords; ++w, texel += 4) std::memcpy(&words.word[w][lane], texel, 4);
+      }
     }
   }
 }
@@ -69,8 +61,8 @@ void write_quads(const BatchWords<kWords>& words, std::byte* plane, const QuadPl
     const uint32_t quad_lanes = lanes >> (quad * 4) & 15;
     if (quad_lanes == 0) continue;
     std::byte* texels = plane + places.quad[quad] * quad_bytes;
-    if (kWords == 1 && quad_lanes == 15) {
-      std::memcpy(texels, &words.word[0][quad * 4], 16);
+    if constexpr (kWords == 1) {
+      store_quad(&words.word[0][quad * 4], quad_lanes, texels);
       continue;
     }
     for (int lane = 0; lane < 4; ++lane, texels += 4 * kWords) {
