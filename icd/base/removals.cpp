@@ -70,8 +70,4 @@ void add_fragments_to_ledger(DrawLedger* ledger, uint64_t lanes, uint64_t lane_o
   add(ledger->lane_ops_run, lane_ops);
 }
 
-void add_to_ledger(DrawLedger* ledger, uint64_t lane_ops_run) {
-  if (ledger != nullptr) add(ledger->lane_ops_run, lane_ops_run);
-}
-
 }  // namespace lapilli

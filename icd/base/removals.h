@@ -48,6 +48,5 @@ void add_to_ledger(DrawLedger* ledger, Removal removal, uint64_t count, uint64_t
 // Lanes that ran a program, and what they cost.
 void add_vertices_to_ledger(DrawLedger* ledger, uint64_t lanes, uint64_t lane_ops);
 void add_fragments_to_ledger(DrawLedger* ledger, uint64_t lanes, uint64_t lane_ops);
-void add_to_ledger(DrawLedger* ledger, uint64_t lane_ops_run);
 
 }  // namespace lapilli

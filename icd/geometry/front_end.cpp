@@ -242,7 +242,7 @@ void FrontEnd::add_triangles(const WorkItem& item, uint32_t first, Worker& worke
   if (draw.ledger == nullptr) return;
   const uint64_t cost = lane_cost(*draw.state->programs->vertex);
   const uint64_t saved = vertices.size() - run;
-  add_to_ledger(draw.ledger, run * cost);
+  add_vertices_to_ledger(draw.ledger, run, run * cost);
   add_to_ledger(draw.ledger, Removal::vertices, saved, saved * cost);
 }
 
