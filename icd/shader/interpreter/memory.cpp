@@ -10,6 +10,7 @@
 #define HWY_TARGET_INCLUDE "shader/interpreter/memory.cpp"
 #include <hwy/foreach_target.h>
 
+#include "base/lanes_gather-inl.h"
 #include "shader/interpreter/handlers.h"
 #include "shader/interpreter/machine-inl.h"
 
@@ -75,6 +76,38 @@ void load_component(const BufferRange& buffer, const uint32_t* addresses, uint64
   }
 }
 
+template <size_t kWords>
+void read_rows(const std::byte* base, const uint32_t* addresses, uint64_t lanes, uint32_t* d) {
+  for (int i = 0; i < kVectorsPerBatch; ++i) {
+    const int at = i * kVectorLanes;
+    const M wanted = mask_of(lanes, i);
+    U words[kWords];
+    gather_words<kWords>(base, load<U>(addresses + at), wanted, words);
+    for (size_t w = 0; w < kWords; ++w) {
+      uint32_t* const to = d + w * kBatchLanes + at;
+      store(select(wanted, words[w], load<U>(to)), to);
+    }
+  }
+}
+
+// Vectors of 2 to 4 components that all lie inside; false, and nothing is done, where one does not.
+bool load_rows_of_words(const BufferRange& buffer, const uint32_t* addresses, uint64_t offset, uint32_t count,
+                        uint64_t lanes, uint32_t* d) {
+  const uint64_t needed = offset + 4 * count;
+  if (buffer.size < needed) return false;
+  const U last = broadcast(static_cast<uint32_t>(std::min<uint64_t>(buffer.size - needed, 0x7FFFFFFF)));
+  uint64_t inside = 0;
+  for (int i = 0; i < kVectorsPerBatch; ++i) {
+    inside |= bits_of(le(load<U>(addresses + i * kVectorLanes), last)) << (i * kVectorLanes);
+  }
+  if ((lanes & ~inside) != 0) return false;
+  const std::byte* const base = buffer.data + offset;
+  if (count == 2) read_rows<2>(base, addresses, lanes, d);
+  if (count == 3) read_rows<3>(base, addresses, lanes, d);
+  if (count == 4) read_rows<4>(base, addresses, lanes, d);
+  return true;
+}
+
 void load_words(const BufferRange& buffer, const uint32_t* addresses, uint64_t offset, uint32_t count, uint64_t lanes,
                 uint32_t* d) {
   const uint32_t first = addresses[std::countr_zero(lanes)];
@@ -95,6 +128,7 @@ void load_words(const BufferRange& buffer, const uint32_t* addresses, uint64_t o
     std::memcpy(d, buffer.data + first_byte, kRegisterBytes);
     return;
   }
+  if (count >= 2 && count <= 4 && load_rows_of_words(buffer, addresses, offset, count, lanes, d)) return;
   for (uint32_t i = 0; i < count; ++i, d += kLanes) load_component(buffer, addresses, offset + 4 * i, lanes, d);
 }
 

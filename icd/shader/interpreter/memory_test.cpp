@@ -80,18 +80,20 @@ TEST(Op, load_buffer) {
   for (SimdTarget target : supported_simd_targets()) {
     for (const Lanes& addresses : address_patterns()) {
       for (uint64_t exec : {~uint64_t{0}, kSome}) {
-        for (bool indexed : {false, true}) {
+        for (uint16_t form = 0; form < 8; ++form) {
+          const bool indexed = form % 2 != 0;
+          const uint16_t count = static_cast<uint16_t>(1 + form / 2);
           MemoryTest test(target);
           test.frame.frame().exec = exec;
           test.frame.write(0, addresses);
           Lanes index;
           for (uint32_t i = 0; i < kBatchLanes; ++i) index[i] = i % 5 == 4 ? 0xFFFFFFFFu : i % 5;
           test.frame.write(1, index);
-          for (uint32_t k = 4; k < 7; ++k) test.frame.write(k, same(kOld));
+          for (uint32_t k = 4; k < 8; ++k) test.frame.write(k, same(kOld));
           const uint16_t b = indexed ? 1 : kNoOperand;
-          test.frame.add(Opcode::load_buffer, kStore, Op{nullptr, 4, 0, b, 3, 0, 8});
+          test.frame.add(Opcode::load_buffer, kStore, Op{nullptr, 4, 0, b, count, 0, 8});
           test.frame.run();
-          for (uint32_t k = 0; k < 3; ++k) {
+          for (uint32_t k = 0; k < count; ++k) {
             Lanes got;
             test.frame.read(4 + k, got);
             for (uint32_t i = 0; i < kBatchLanes; ++i) {
