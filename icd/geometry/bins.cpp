@@ -2,6 +2,8 @@
 #include "geometry/bins.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstring>
 
 #include "geometry/setup.h"
 
@@ -25,7 +27,7 @@ struct TileEdges {
   }
 };
 
-// Calls visit(tile, triangle) for every tile that the triangle may touch. Not inlined: most lie in one tile.
+// Visits every tile that the triangle may touch. Not inlined: most lie in one tile.
 template <class Visit>
 [[gnu::noinline]] void visit_tiles(const TileGrid& grid, const BinChunk& chunk, uint32_t index, Visit& visit) {
   const BinTriangle& triangle = chunk.triangles[index];
@@ -33,7 +35,10 @@ template <class Visit>
   const uint32_t y0 = triangle.y0 / kTileSize, y1 = (triangle.y1 - 1u) / kTileSize;
   if (x0 == x1 || y0 == y1) {
     for (uint32_t y = y0; y <= y1; ++y) {
-      for (uint32_t x = x0; x <= x1; ++x) visit(y * grid.columns + x, index);
+      for (uint32_t x = x0; x <= x1; ++x) {
+        visit.change(y * grid.columns + x);
+        visit.add(index);
+      }
     }
     return;
   }
@@ -41,7 +46,10 @@ template <class Visit>
   for (uint32_t y = y0; y <= y1; ++y) {
     int64_t e0 = edges.at[0], e1 = edges.at[1], e2 = edges.at[2];
     for (uint32_t x = x0; x <= x1; ++x) {
-      if ((e0 | e1 | e2) >= 0) visit(y * grid.columns + x, index);
+      if ((e0 | e1 | e2) >= 0) {
+        visit.change(y * grid.columns + x);
+        visit.add(index);
+      }
       e0 += edges.step_x[0];
       e1 += edges.step_x[1];
       e2 += edges.step_x[2];
@@ -49,31 +57,44 @@ template <class Visit>
     for (int i = 0; i < 3; ++i) edges.at[i] += edges.step_y[i];
   }
 }
-template <class Visit>
-void for_each_tile(const TileGrid& grid, const BinChunk& chunk, Visit& visit) {
-  const uint32_t count = static_cast<uint32_t>(chunk.triangles.size());
-  const BinTriangle* const triangles = chunk.triangles.data();
-  for (uint32_t t = 0; t < count; ++t) {
-    const BinTriangle& triangle = triangles[t];
-    const uint32_t x0 = triangle.x0 / kTileSize, y0 = triangle.y0 / kTileSize;
-    if (x0 == (triangle.x1 - 1u) / kTileSize && y0 == (triangle.y1 - 1u) / kTileSize) {
-      visit(y0 * grid.columns + x0, t);
-    } else {
-      visit_tiles(grid, chunk, t, visit);
-    }
-  }
+// The tiles of the first and the last pixel of its bounds, 16 bits each: x y x y. Little endian.
+uint64_t corner_tiles(const BinTriangle& triangle) {
+  static_assert(offsetof(BinTriangle, x0) + sizeof(uint64_t) == sizeof(BinTriangle) && kTileSize == 64);
+  uint64_t bounds;
+  std::memcpy(&bounds, &triangle.x0, sizeof bounds);
+  return ((bounds - (uint64_t{0x00010001} << 32)) >> 6) & 0x03FF'03FF'03FF'03FF;
 }
 
-// Neighbours in the list mostly lie in the same tile: its number is kept at hand, since memory that was just written
-// is slow to read.
+// Neighbours in the list mostly lie in the same tile: that takes one comparison, and what is known of the tile stays in
+// registers.
+template <class Visit>
+void for_each_tile(const TileGrid& grid, const BinChunk& chunk, Visit visit) {
+  constexpr uint64_t kNone = ~uint64_t{0};
+  const uint32_t count = static_cast<uint32_t>(chunk.triangles.size());
+  const BinTriangle* const triangles = chunk.triangles.data();
+  uint64_t last = kNone;
+  for (uint32_t t = 0; t < count; ++t) {
+    const uint64_t tiles = corner_tiles(triangles[t]);
+    if (tiles != last) {
+      if (static_cast<uint32_t>(tiles) != tiles >> 32) {
+        visit_tiles(grid, chunk, t, visit);
+        last = kNone;
+        continue;
+      }
+      visit.change(static_cast<uint32_t>(tiles >> 48) * grid.columns + static_cast<uint16_t>(tiles));
+      last = tiles;
+    }
+    visit.add(t);
+  }
+  visit.change(0);
+}
+
+// What is done for each triangle of a tile, and when another tile follows.
 struct Count {
-  uint32_t* first;  // of BinChunk::tile_first
+  uint32_t* first;  // BinChunk::tile_first
   uint32_t tile = 0, count = 0;
 
-  void operator()(uint32_t next, uint32_t) {
-    if (next != tile) change(next);
-    ++count;
-  }
+  void add(uint32_t) { ++count; }
   void change(uint32_t next) {
     first[tile + 1] += count;
     tile = next;
@@ -85,10 +106,7 @@ struct Scatter {
   uint32_t* references;
   uint32_t tile = 0, at = first[0];
 
-  void operator()(uint32_t next, uint32_t triangle) {
-    if (next != tile) change(next);
-    references[at++] = triangle;
-  }
+  void add(uint32_t triangle) { references[at++] = triangle; }
   void change(uint32_t next) {
     first[tile] = at;
     tile = next;
@@ -112,16 +130,12 @@ void release_chunk(BinChunk& chunk) { chunk = BinChunk(); }
 void finish_chunk(const TileGrid& grid, BinChunk& chunk) {
   chunk.tile_first.assign(grid.count() + 1, 0);
   uint32_t* const first = chunk.tile_first.data();
-  Count count{first};
-  for_each_tile(grid, chunk, count);
-  count.change(0);
+  for_each_tile(grid, chunk, Count{first});
   for (uint32_t tile = 0; tile < grid.count(); ++tile) first[tile + 1] += first[tile];
 
   // The scatter moves each tile's start to its end; shifting by one entry restores it.
   chunk.references.resize(first[grid.count()]);
-  Scatter scatter{first, chunk.references.data()};
-  for_each_tile(grid, chunk, scatter);
-  scatter.change(0);
+  for_each_tile(grid, chunk, Scatter{first, chunk.references.data()});
   for (uint32_t tile = grid.count(); tile > 0; --tile) first[tile] = first[tile - 1];
   first[0] = 0;
 }
