@@ -361,6 +361,50 @@ TEST_F(FrontEndTest, DrawsWithoutEffectAreSkipped) {
   EXPECT_EQ(vertices(), 3 * 36u);
 }
 
+// Each tile lists, in order, the triangles whose bounds reach it; those that lie in one row or column of tiles all of
+// them, larger ones not where an edge leaves the tile out.
+TEST_F(FrontEndTest, TilesListTheirTriangles) {
+  std::mt19937 random(11);
+  std::vector<MeshVertex> vertices = random_mesh(600, 0.02f, random);
+  const std::vector<MeshVertex> large = random_mesh(100, 0.4f, random);
+  vertices.insert(vertices.begin() + 900, large.begin(), large.end());
+  TestProgram program;
+  program.bind(vertices);
+  const DrawCall draw = program.draw(2100);
+  ThreadPool pool(1);
+  FrontEnd front_end(pool);
+  ExecutionLimits limits;
+  const TileGrid grid = tiles_of(kWidth, kHeight);
+  front_end.begin({&draw, 1}, grid, kArea, limits);
+  BinSet set;
+  ASSERT_TRUE(front_end.next(set));
+  size_t left_out = 0;
+  for (const BinChunk& chunk : set.chunks) {
+    for (uint32_t tile = 0; tile < grid.count(); ++tile) {
+      const int32_t x = static_cast<int32_t>(tile % grid.columns * kTileSize);
+      const int32_t y = static_cast<int32_t>(tile / grid.columns * kTileSize);
+      const int32_t size = static_cast<int32_t>(kTileSize);
+      const std::span<const uint32_t> list = chunk.tile(tile);
+      size_t next = 0;
+      for (uint32_t t = 0; t < chunk.triangles.size(); ++t) {
+        const PixelRect bounds = chunk.triangles[t].bounds();
+        const bool reaches = !intersect(bounds, {x, y, x + size, y + size}).empty();
+        const bool listed = next < list.size() && list[next] == t;
+        const bool one_column = bounds.x0 / size == (bounds.x1 - 1) / size;
+        const bool one_row = bounds.y0 / size == (bounds.y1 - 1) / size;
+        if (reaches && (one_column || one_row)) {
+          ASSERT_TRUE(listed) << tile << " " << t;
+        }
+        ASSERT_TRUE(reaches || !listed) << tile << " " << t;
+        left_out += reaches && !listed;
+        next += listed;
+      }
+      ASSERT_EQ(next, list.size());
+    }
+  }
+  EXPECT_GT(left_out, 0u);
+}
+
 // A draw of no triangle at all, 2^32 - 1 times.
 TEST_F(FrontEndTest, EmptyDrawsOfManyInstancesEnd) {
   const GridMesh mesh(1, 1);
