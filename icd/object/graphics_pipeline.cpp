@@ -185,7 +185,7 @@ Result<Targets> find_targets(GraphicsState& state, const Info& info, bool raster
   return targets;
 }
 
-Result<void> build(GraphicsPart& part, const Info& info) {
+Result<void> build(GraphicsPart& part, const Info& info, bool counts_removals) {
   if (Result<void> checked = check_raster(info); !checked) return checked;
   set_raster(part, info);
   if (!part.rasterizer_discard) {
@@ -199,7 +199,7 @@ Result<void> build(GraphicsPart& part, const Info& info) {
   if (Result<void> found = find_stages(stages, info, part.rasterizer_discard); !found) return found;
 
   GraphicsState state;
-  state.raster_tests_depth = true;
+  state.counts_removals = counts_removals;
   Result<Targets> targets = find_targets(state, info, part.rasterizer_discard);
   if (!targets) return targets.error();
   std::copy(targets->formats.begin(), targets->formats.end(), part.color_formats.begin());
@@ -218,7 +218,7 @@ Result<void> build(GraphicsPart& part, const Info& info) {
 VkResult create_one(DeviceContext& device, const Info& info, const VkAllocationCallbacks* callbacks,
                     VkPipeline* handle) {
   auto pipeline = make_object<Pipeline>(device.object_memory(callbacks), VK_SYSTEM_ALLOCATION_SCOPE_OBJECT);
-  if (Result<void> built = build(pipeline->graphics, info); !built) {
+  if (Result<void> built = build(pipeline->graphics, info, device.physical_device.environment.stats); !built) {
     log_error("vkCreateGraphicsPipelines: %s", built.error().message.c_str());
     return built.error().code;
   }

@@ -50,11 +50,18 @@ DrawLedger FrameLedger::Draw::total() const {
   DrawLedger::Line& uniforms = sum.lines[static_cast<size_t>(Removal::uniforms)];
   uniforms.count += vertex.once_ops + fragment.once_ops;
   uniforms.lane_ops += vertex.once_cost * sum.vertices + fragment.once_cost * sum.fragments;
+  DrawLedger::Line& varyings = sum.lines[static_cast<size_t>(Removal::varyings)];
+  varyings.count += removed.vertex_values * sum.vertices + removed.input_values * sum.fragments;
+  varyings.lane_ops += removed.vertex_cost * sum.vertices + removed.input_cost * sum.fragments;
+  DrawLedger::Line& outputs = sum.lines[static_cast<size_t>(Removal::outputs)];
+  outputs.count += removed.output_ops * sum.fragments;
+  outputs.lane_ops += removed.output_cost * sum.fragments;
   return sum;
 }
 
 DrawLedger* FrameLedger::add_draw(const GraphicsPrograms& programs) {
-  return &draws_.emplace_back(Draw{savings_of(programs.vertex), savings_of(programs.fragment), {}}).ledger;
+  return &draws_.emplace_back(Draw{savings_of(programs.vertex), savings_of(programs.fragment), programs.removed, {}})
+              .ledger;
 }
 
 std::string FrameLedger::text(uint64_t submission) const {

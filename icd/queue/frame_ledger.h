@@ -26,6 +26,7 @@ class FrameLedger {
   };
   struct Draw {
     ProgramSavings vertex, fragment;
+    RemovedWork removed;
     DrawLedger ledger;
 
     DrawLedger total() const;

@@ -18,6 +18,12 @@ constexpr uint32_t kMaxVertexBindings = 16;
 constexpr uint32_t kMaxVertexAttributes = 16;
 constexpr uint32_t kMaxColorAttachments = 8;
 
+// All lanes of the quads that have one in `lanes`.
+inline uint64_t whole_quads(uint64_t lanes) {
+  const uint64_t pairs = lanes | lanes >> 1;
+  return ((pairs | pairs >> 2) & 0x1111111111111111) * 15;
+}
+
 struct VertexBinding {
   const std::byte* data = nullptr;
   uint64_t size = 0;    // bytes; an attribute that does not lie inside reads as 0 0 0 1 (robustBufferAccess)

@@ -25,10 +25,8 @@ constexpr uint64_t kGroupsPerClockRead = 256;
 
 bool expired(ExecutionLimits* limits, uint64_t groups_done) {
   if (limits == nullptr) return false;
-  if (limits->expired.load(std::memory_order_relaxed)) return true;
-  if (groups_done % kGroupsPerClockRead != 0 || std::chrono::steady_clock::now() < limits->deadline) return false;
-  limits->expired.store(true, std::memory_order_relaxed);
-  return true;
+  if (groups_done % kGroupsPerClockRead == 0) return limits->read_clock();
+  return limits->expired.load(std::memory_order_relaxed);
 }
 
 void run_workgroup(Execution& execution, uint64_t number, const uint32_t groups[3], uint64_t invocations) {

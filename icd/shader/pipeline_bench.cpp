@@ -60,6 +60,34 @@ void build(benchmark::State& bench, const CorpusShader& vertex_shader, const Cor
   }
 }
 
+// A worker goes over to another draw of the same pipeline, and runs one batch of it with one vertex.
+void prepare(benchmark::State& bench, const CorpusShader& vertex_shader, bool run) {
+  const Setting setting;
+  const ShaderStage vertex{parsed(vertex_shader.words), "main", {}};
+  const Result<GraphicsPrograms> programs = build_graphics(vertex, nullptr, setting.state, setting.layout());
+  if (!programs.ok()) return bench.SkipWithError(programs.error().message.c_str());
+  std::vector<float> numbers(1024, 0.5f);
+  Descriptor descriptors[8];
+  for (Descriptor& each : descriptors) {
+    each.data = reinterpret_cast<std::byte*>(numbers.data());
+    each.size = each.room = numbers.size() * sizeof(float);
+  }
+  ResourceTable tables[2];
+  for (ResourceTable& table : tables) std::fill(std::begin(table.sets), std::end(table.sets), descriptors);
+  VertexBatch batch = {};
+  const VertexBinding bindings[kMaxVertexBindings] = {};
+  alignas(64) static float outputs[kMaxVaryingComponents + kSlotVaryings][kBatchLanes];
+  batch.bindings = bindings;
+  batch.outputs = outputs[0];
+  ExecutionLimits limits;
+  Execution execution;
+  size_t draw = 0;
+  for (auto _ : bench) {
+    benchmark::DoNotOptimize(execution.prepare(*programs->vertex, tables[draw++ % 2], &limits));
+    if (run) execution.run_vertices(batch, 1);
+  }
+}
+
 const CorpusShader& find(std::string_view name) {
   for (const CorpusShader& shader : kCorpus) {
     if (shader.name == name) return shader;
@@ -83,6 +111,13 @@ int main(int argc, char** argv) {
     }
     benchmark::RegisterBenchmark(("build/" + base).c_str(),
                                  [&shader, vertex](benchmark::State& state) { build(state, *vertex, shader); });
+  }
+  for (const char* const name : {"phong.vert", "material.vert", "transform.vert"}) {
+    const CorpusShader& shader = find(name);
+    for (const bool run : {false, true}) {
+      benchmark::RegisterBenchmark(((run ? "prepare_and_run/" : "prepare/") + std::string(name)).c_str(),
+                                   [&shader, run](benchmark::State& state) { prepare(state, shader, run); });
+    }
   }
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();

@@ -14,12 +14,6 @@ namespace {
 constexpr std::align_val_t kAlignment{64};
 constexpr Descriptor kUnwritten;
 
-// All lanes of the quads that have one in `lanes`.
-uint64_t whole_quads(uint64_t lanes) {
-  const uint64_t pairs = lanes | lanes >> 1;
-  return ((pairs | pairs >> 2) & 0x1111111111111111) * 15;
-}
-
 }  // namespace
 
 const Descriptor& descriptor_at(const Frame& frame, uint32_t resource, uint32_t index) {
@@ -41,12 +35,20 @@ BufferRange buffer_at(const Frame& frame, uint32_t resource, uint32_t index) {
 
 bool time_is_up(Frame* frame) {
   frame->loop_budget = kLoopsPerClockRead;
-  ExecutionLimits* const limits = frame->limits;
-  if (limits == nullptr) return false;
-  if (limits->expired.load(std::memory_order_relaxed)) return true;
-  if (std::chrono::steady_clock::now() < limits->deadline) return false;
-  limits->expired.store(true, std::memory_order_relaxed);
+  return frame->limits != nullptr && frame->limits->read_clock();
+}
+
+bool ExecutionLimits::read_clock() {
+  if (!expired.load(std::memory_order_relaxed)) {
+    if (std::chrono::steady_clock::now() < deadline) return false;
+    expired.store(true, std::memory_order_relaxed);
+  }
   return true;
+}
+
+uint64_t ExecutionLimits::next_serial() {
+  static std::atomic<uint64_t> next{1};
+  return next.fetch_add(1, std::memory_order_relaxed);
 }
 
 // One block of memory: the frame, the registers, the mask registers, the buffers, the scalars.
@@ -92,6 +94,7 @@ struct Execution::State {
     spread(next.constant_lanes, frame);
     program = &next;
     program_id = next.id;
+    limits_serial = 0;
     return true;
   }
 
@@ -120,6 +123,7 @@ struct Execution::State {
   BufferRange* buffers = nullptr;
   Run* entry = nullptr;
   SpreadScalars* spread = nullptr;
+  uint64_t limits_serial = 0;  // of the pass or dispatch that the resources were bound in; 0: not known
   bool once_is_due = false;
   float blend_constants[4] = {};  // that the once section has seen
 };
@@ -133,6 +137,9 @@ bool Execution::prepare(const Program& program, const ResourceTable& resources, 
   State& state = *state_;
   if (state.program_id != program.id && !state.bind(program)) return false;
   Frame* const frame = state.frame;
+  const uint64_t serial = limits != nullptr ? limits->serial : 0;
+  if (serial != 0 && serial == state.limits_serial && frame->resources == &resources) return true;
+  state.limits_serial = serial;
   frame->limits = limits;
   frame->resources = &resources;
   const size_t count = program.source.resources.size();

@@ -35,13 +35,21 @@ uint32_t lane_cost(const Program& program);
 const Code& source(
     const Program& program);  // after the passes; tables (attributes, resources, workgroup size) as built
 
-// Set by an op when the time limit of an endless loop has passed; the queue then reports VK_ERROR_DEVICE_LOST.
+// Of one pass or dispatch. `expired` is set when the time limit of an endless loop has passed; the queue then reports
+// VK_ERROR_DEVICE_LOST.
 struct ExecutionLimits {
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
   std::atomic<bool> expired{false};
+  const uint64_t serial = next_serial();  // tells one pass or dispatch from all others; never 0
+
+  bool read_clock();  // whether the time has passed; sets `expired`
+
+ private:
+  static uint64_t next_serial();
 };
 
-// The registers of one worker for one program and one draw; constants are written once, in prepare().
+// The registers of one worker for one program and one draw. Constants are written when the program changes; what is
+// the same in a whole draw is computed before the first batch after prepare().
 class Execution {
  public:
   Execution();
@@ -49,7 +57,8 @@ class Execution {
   Execution(const Execution&) = delete;
   Execution& operator=(const Execution&) = delete;
 
-  // Binds program and resources; keeps its memory for the next call. False: out of memory.
+  // Binds program and resources; keeps its memory for the next call. False: out of memory. What a ResourceTable says
+  // may not change while a pass (one ExecutionLimits) runs: to prepare the same again costs nothing.
   bool prepare(const Program& program, const ResourceTable& resources, ExecutionLimits* limits);
   // Run one batch. `lanes`: lanes with a vertex, invocation or covered sample. Fragments: helper lanes are the other
   // lanes of covered quads.

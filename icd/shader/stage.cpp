@@ -269,15 +269,14 @@ Varyings link_varyings(LoweredShader& shader, const std::vector<bool>& live, Rem
   return varyings;
 }
 
-// Before the shader: early depth, interpolation. `early`: the depth test is here.
-void emit_fragment_prologue(LoweredShader& shader, const FragmentPlan& plan, bool early, Reg depth_reg,
-                            const Varyings& varyings, const std::vector<bool>& live) {
+// Before the shader: interpolation. An early depth test is raster's work.
+void emit_fragment_prologue(LoweredShader& shader, Reg depth_reg, const Varyings& varyings,
+                            const std::vector<bool>& live) {
   Code& code = shader.code;
   const InterfaceBuiltIn* position = find_built_in(shader.built_in_inputs, spv::BuiltIn::FragCoord);
   const bool reads_z = position != nullptr && live[position->regs[2]];
   const bool reads_w = position != nullptr && live[position->regs[3]];
-  if (early || reads_z || live[depth_reg]) append_to(code, Opcode::frag_depth, depth_reg, 1);
-  if (early) emit_depth_test(code, plan, depth_reg, shader.end_label);
+  if (reads_z || live[depth_reg]) append_to(code, Opcode::frag_depth, depth_reg, 1);
   if (reads_z) code.emit_to(Opcode::mov, position->regs[2], depth_reg);
   emit_built_ins(shader, live);
   const auto uses = [&](Interpolation how) {
@@ -354,7 +353,7 @@ Result<GraphicsCode> make_graphics_code(const ShaderStage& vertex, const ShaderS
     return Error{VK_ERROR_UNKNOWN, "the fragment shader reads more than " + std::to_string(kMaxVaryingComponents) +
                                        " components of inputs"};
   const size_t first = shader.code.instructions.size();
-  emit_fragment_prologue(shader, out, out.early_depth && !state.raster_tests_depth, depth_reg, varyings, live);
+  emit_fragment_prologue(shader, depth_reg, varyings, live);
   move_to_front(shader.code, first);
   Result<Code> vertex_code = make_vertex_code(vertex, state, layout, varyings, out.removed);
   if (!vertex_code) return vertex_code.error();

@@ -39,7 +39,6 @@ struct GraphicsState {
   bool depth_test = false, depth_write = false;  // false too where the pass has no depth attachment
   VkCompareOp depth_compare = VK_COMPARE_OP_ALWAYS;
   bool counts_removals = false;             // fill RemovedWork
-  bool raster_tests_depth = false;          // the early depth test is not in the program
   std::span<const VkFormat> color_formats;  // by attachment index of the subpass; VK_FORMAT_UNDEFINED: unused
   std::span<const VkPipelineColorBlendAttachmentState> blend;  // same length
 };

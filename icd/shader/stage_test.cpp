@@ -165,28 +165,24 @@ TEST_F(Stage, BlendingReadsTheTargetOnlyIfItMust) {
   EXPECT_NE(refused.error().message.find("second source colour"), std::string::npos);
 }
 
-TEST_F(Stage, DepthIsEarlyUnlessDiscardDecides) {
+TEST_F(Stage, DepthIsLateWhereDiscardDecides) {
   state.depth_test = state.depth_write = true;
   state.depth_compare = VK_COMPARE_OP_LESS;
-  make();
-  EXPECT_EQ(all(code.fragment, Opcode::depth_test)[0].imm, 8u | VK_COMPARE_OP_LESS);
-  EXPECT_LT(place(code.fragment, Opcode::depth_test), place(code.fragment, Opcode::frag_linear));
   specialization = {{0, 1, 4}};  // discard
   make();
   EXPECT_EQ(count(code.fragment, Opcode::kill), 1u);
+  EXPECT_EQ(all(code.fragment, Opcode::depth_test)[0].imm, 8u | VK_COMPARE_OP_LESS);
   EXPECT_GT(place(code.fragment, Opcode::depth_test), place(code.fragment, Opcode::kill));
   EXPECT_LT(place(code.fragment, Opcode::depth_test), place(code.fragment, Opcode::count_samples));
   state.depth_write = false;
   make();
-  EXPECT_LT(place(code.fragment, Opcode::depth_test), place(code.fragment, Opcode::kill));
-  EXPECT_GT(place(code.fragment, Opcode::count_samples), place(code.fragment, Opcode::kill));
-  state.depth_compare = VK_COMPARE_OP_ALWAYS;
-  make();
+  EXPECT_TRUE(code.early_depth);
   EXPECT_EQ(count(code.fragment, Opcode::depth_test), 0u);
+  EXPECT_GT(place(code.fragment, Opcode::count_samples), place(code.fragment, Opcode::kill));
 }
 
-TEST_F(Stage, EarlyDepthMayBeLeftToTheRasterizer) {
-  state.depth_test = state.depth_write = state.raster_tests_depth = true;
+TEST_F(Stage, EarlyDepthIsLeftToTheRasterizer) {
+  state.depth_test = state.depth_write = true;
   state.depth_compare = VK_COMPARE_OP_LESS;
   make();
   EXPECT_EQ(count(code.fragment, Opcode::depth_test), 0u);
@@ -242,7 +238,8 @@ TEST_F(Stage, WithoutFragmentShader) {
   ASSERT_TRUE(made.ok());
   EXPECT_EQ(verify(made->fragment), "");
   EXPECT_TRUE(made->fragment_reads_nothing);
-  EXPECT_EQ(count(made->fragment, Opcode::depth_test), 1u);
+  EXPECT_TRUE(made->early_depth);
+  EXPECT_EQ(count(made->fragment, Opcode::depth_test), 0u);
   EXPECT_EQ(made->output_slots, kSlotVaryings);
   EXPECT_EQ(count(made->vertex, Opcode::fetch), 1u);
 }

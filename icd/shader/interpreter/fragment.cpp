@@ -191,12 +191,6 @@ M compare(uint32_t how, F z, F stored) {
   }
 }
 
-// All lanes of the quads that have one in `lanes`.
-uint64_t whole_quads(uint64_t lanes) {
-  const uint64_t pairs = lanes | lanes >> 1;
-  return ((pairs | pairs >> 2) & 0x1111111111111111) * 15;
-}
-
 HWY_INLINE QuadPlaces places_of(const FragmentBatch& batch) { return {batch.quad_in_tile, batch.whole_block}; }
 
 struct op_depth_test {
