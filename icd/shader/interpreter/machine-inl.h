@@ -16,6 +16,7 @@
 #include <cstring>
 
 #include "base/lanes-inl.h"
+#include "base/lanes_leave-inl.h"
 #include "shader/interpreter/op.h"
 
 #undef LAPILLI_ACCUMULATOR
@@ -182,6 +183,7 @@ inline void run_ops(const Op* op, Frame* frame) {
   reinterpret_cast<Tail>(op->handler)(op, frame LAPILLI_EACH(LAPILLI_DO));
 }
 #undef LAPILLI_DO
+// Functions with vectors as arguments leave the registers as they are, for callers that know; here nobody does.
 inline void end_handler(const Op*, Frame*, LAPILLI_ACCUMULATOR) {
 #define LAPILLI_DO(i) (void)x##i;
   LAPILLI_EACH(LAPILLI_DO)
@@ -189,6 +191,7 @@ inline void end_handler(const Op*, Frame*, LAPILLI_ACCUMULATOR) {
   // The compiler takes the vectors for alive. With their upper halves in use every SSE instruction of the caller that
   // follows would be slow: a quarter of the time of simple programs.
   __builtin_ia32_vzeroupper();
+  clear_upper_lanes();
 }
 
 #else
