@@ -136,7 +136,8 @@ TEST(Hidden, LayersAreShadedOnce) {
       run += draw.ledger.lane_ops_run;
     }
     EXPECT_EQ(hidden, 63u * 128 * 96);
-    EXPECT_EQ(run, uint64_t{128} * 96 * lane_cost(*pass.draws[0].programs.fragment));
+    const GraphicsPrograms& programs = pass.draws[0].programs;
+    EXPECT_EQ(run, uint64_t{128} * 96 * lane_cost(*programs.fragment) + uint64_t{64} * 3 * lane_cost(*programs.vertex));
     for (size_t i = 0; i < pass.color.size(); ++i) ASSERT_EQ(pass.color[i], 0.0f);
     for (const ScenePass::Draw& draw : pass.draws) {
       const bool seen = back_to_front || &draw == &pass.draws[0];

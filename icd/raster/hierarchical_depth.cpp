@@ -18,36 +18,6 @@
 namespace lapilli {
 namespace {
 
-// How the triangle's range lies to the stored one; a bit for each block.
-struct Relations {
-  uint64_t below = 0;     // triangle's max < stored min
-  uint64_t at_most = 0;   // <=
-  uint64_t above = 0;     // triangle's min > stored max
-  uint64_t at_least = 0;  // >=
-  uint64_t same = 0;      // all four are one value
-};
-
-BlockVerdicts verdicts(VkCompareOp compare, const Relations& is) {
-  switch (compare) {
-    case VK_COMPARE_OP_NEVER:
-      return {kAllBits, 0};
-    case VK_COMPARE_OP_LESS:
-      return {is.at_least, is.below};
-    case VK_COMPARE_OP_EQUAL:
-      return {is.below | is.above, is.same};
-    case VK_COMPARE_OP_LESS_OR_EQUAL:
-      return {is.above, is.at_most};
-    case VK_COMPARE_OP_GREATER:
-      return {is.at_most, is.above};
-    case VK_COMPARE_OP_NOT_EQUAL:
-      return {is.same, is.below | is.above};
-    case VK_COMPARE_OP_GREATER_OR_EQUAL:
-      return {is.below, is.at_least};
-    default:
-      return {0, kAllBits};
-  }
-}
-
 // The first pixel of the block of each bit.
 struct BlockPositions {
   std::array<double, 64> x{}, y{};
@@ -61,17 +31,6 @@ constexpr BlockPositions kBlockPositions = [] {
   return positions;
 }();
 
-// The lowest and highest value of a rectangle of pixels relative to its first one.
-struct Spread {
-  double low, high;
-  Spread(const DepthBounds& bounds, double width, double height) {
-    const double x = (width - 1) * bounds.dx;
-    const double y = (height - 1) * bounds.dy;
-    low = std::fmin(x, 0) + std::fmin(y, 0) - bounds.error;
-    high = std::fmax(x, 0) + std::fmax(y, 0) + bounds.error;
-  }
-};
-
 }  // namespace
 }  // namespace lapilli
 #endif
@@ -81,15 +40,14 @@ namespace lapilli {
 namespace HWY_NAMESPACE {
 namespace {
 
-BlockVerdicts judge(VkCompareOp compare, const DepthBounds& bounds, const BlockRanges& stored, BlockRanges& triangle) {
-  const Spread spread(bounds, kBlockSize, kBlockSize);
-  const D low = broadcast(bounds.z + spread.low);
-  const D high = broadcast(bounds.z + spread.high);
-  const D dx = broadcast(bounds.dx);
-  const D dy = broadcast(bounds.dy);
-  const F least = broadcast(bounds.min);
-  const F most = broadcast(bounds.max);
-  Relations is;
+void relate(const BlockSlopes& slopes, const BlockRanges& stored, BlockRanges& triangle, DepthRelations& out) {
+  const D low = broadcast(slopes.low);
+  const D high = broadcast(slopes.high);
+  const D dx = broadcast(slopes.dx);
+  const D dy = broadcast(slopes.dy);
+  const F least = broadcast(slopes.min);
+  const F most = broadcast(slopes.max);
+  DepthRelations is;
   for (int i = 0; i < kLanes; i += kVectorLanes) {
     const D step = load_d(&kBlockPositions.x[static_cast<size_t>(i)]) * dx +
                    load_d(&kBlockPositions.y[static_cast<size_t>(i)]) * dy;
@@ -105,7 +63,7 @@ BlockVerdicts judge(VkCompareOp compare, const DepthBounds& bounds, const BlockR
     store(z_min, triangle.min + i);
     store(z_max, triangle.max + i);
   }
-  return bounds.known ? verdicts(compare, is) : BlockVerdicts{};
+  out = is;
 }
 
 DepthRange range(const BlockRanges& blocks) {
@@ -138,7 +96,7 @@ void copy(BlockRanges& to, const BlockRanges& from, uint64_t blocks) {
 }  // namespace
 
 extern const HierarchicalDepthFunctions kHierarchicalDepth;
-const HierarchicalDepthFunctions kHierarchicalDepth = {judge, range, copy};
+const HierarchicalDepthFunctions kHierarchicalDepth = {relate, range, copy};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lapilli
@@ -151,7 +109,41 @@ namespace {
 constexpr PerTarget<const HierarchicalDepthFunctions> kTables = LAPILLI_PER_TARGET(kHierarchicalDepth);
 
 float clamped(double z, const DepthBounds& bounds) {
-  return std::fmin(std::fmax(static_cast<float>(z), bounds.min), bounds.max);
+  const float rounded = static_cast<float>(z);
+  const float above = rounded < bounds.min ? bounds.min : rounded;
+  return above > bounds.max ? bounds.max : above;
+}
+
+// The lowest and highest value of a rectangle of pixels relative to its first one.
+struct Spread {
+  double low, high;
+  Spread(const DepthBounds& bounds, int32_t width, int32_t height) : low(-bounds.error), high(bounds.error) {
+    const double x = (width - 1) * bounds.dx;
+    const double y = (height - 1) * bounds.dy;
+    (x < 0 ? low : high) += x;
+    (y < 0 ? low : high) += y;
+  }
+};
+
+BlockVerdicts verdicts(VkCompareOp compare, const DepthRelations& is) {
+  switch (compare) {
+    case VK_COMPARE_OP_NEVER:
+      return {kAllBits, 0};
+    case VK_COMPARE_OP_LESS:
+      return {is.at_least, is.below};
+    case VK_COMPARE_OP_EQUAL:
+      return {is.below | is.above, is.same};
+    case VK_COMPARE_OP_LESS_OR_EQUAL:
+      return {is.above, is.at_most};
+    case VK_COMPARE_OP_GREATER:
+      return {is.at_most, is.above};
+    case VK_COMPARE_OP_NOT_EQUAL:
+      return {is.same, is.below | is.above};
+    case VK_COMPARE_OP_GREATER_OR_EQUAL:
+      return {is.below, is.at_least};
+    default:
+      return {0, kAllBits};
+  }
 }
 
 }  // namespace
@@ -180,12 +172,21 @@ DepthRange range_in_rect(const DepthBounds& bounds, const PixelRect& rect) {
 }
 
 BlockVerdicts judge(VkCompareOp compare, DepthRange triangle, DepthRange stored) {
-  Relations is;
+  DepthRelations is;
   is.below = triangle.max < stored.min;
   is.at_most = triangle.max <= stored.min;
   is.above = triangle.min > stored.max;
   is.at_least = triangle.min >= stored.max;
   is.same = triangle.min == triangle.max && stored.min == stored.max && triangle.min == stored.min;
+  return verdicts(compare, is);
+}
+
+BlockVerdicts judge(VkCompareOp compare, const DepthBounds& bounds, const BlockRanges& stored, BlockRanges& triangle) {
+  const Spread spread(bounds, kBlockSize, kBlockSize);
+  const BlockSlopes slopes = {
+      bounds.z + spread.low, bounds.z + spread.high, bounds.dx, bounds.dy, bounds.min, bounds.max};
+  DepthRelations is;
+  hierarchical_depth_functions().relate(slopes, stored, triangle, is);
   return verdicts(compare, is);
 }
 

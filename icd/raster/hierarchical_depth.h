@@ -38,10 +38,24 @@ BlockVerdicts judge(VkCompareOp compare, DepthRange triangle, DepthRange stored)
 struct alignas(64) BlockRanges {
   float min[64], max[64];
 };
+// All blocks of the tile; `triangle` becomes the bounds of the triangle's depths. The bounds have to be known.
+BlockVerdicts judge(VkCompareOp compare, const DepthBounds& bounds, const BlockRanges& stored, BlockRanges& triangle);
+
+// How the triangle's range lies to the stored one; a bit for each block.
+struct DepthRelations {
+  uint64_t below = 0;     // triangle's max < stored min
+  uint64_t at_most = 0;   // <=
+  uint64_t above = 0;     // triangle's min > stored max
+  uint64_t at_least = 0;  // >=
+  uint64_t same = 0;      // all four are one value
+};
+// Linear in the pixel, before clamping, at the tile's first block.
+struct BlockSlopes {
+  double low, high, dx, dy;
+  float min, max;
+};
 struct HierarchicalDepthFunctions {
-  // All blocks of the tile; `triangle` becomes the bounds of the triangle's depths.
-  BlockVerdicts (*judge)(VkCompareOp compare, const DepthBounds& bounds, const BlockRanges& stored,
-                         BlockRanges& triangle);
+  void (*relate)(const BlockSlopes& slopes, const BlockRanges& stored, BlockRanges& triangle, DepthRelations& is);
   DepthRange (*range)(const BlockRanges& blocks);
   void (*copy)(BlockRanges& to, const BlockRanges& from, uint64_t blocks);
 };

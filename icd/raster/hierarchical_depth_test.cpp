@@ -29,7 +29,7 @@ void expect_bounds(const BinChunk& chunk, uint32_t tile_x, uint32_t tile_y) {
   const DepthBounds bounds = depth_bounds(triangle, tile_x, tile_y);
   if (!bounds.known) return;
   BlockRanges ranges, anything{};
-  hierarchical_depth_functions().judge(VK_COMPARE_OP_LESS, bounds, anything, ranges);
+  judge(VK_COMPARE_OP_LESS, bounds, anything, ranges);
   const DepthRange tile = range_in_rect(bounds, {0, 0, 64, 64});
   for (uint32_t block = 0; block < 64; ++block) {
     const int32_t x = static_cast<int32_t>(column_of_bit(block) * 8), y = static_cast<int32_t>(row_of_bit(block) * 8);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <cstring>
 
 namespace lapilli {
 namespace {
@@ -11,12 +12,32 @@ namespace {
 constexpr uint32_t kBlockQuadColumns = kBlockSize / 2;
 // From so many quads on, one triangle's in a block are a batch of their own: scalar coefficients and straight loads are
 // worth more than full lanes.
-constexpr int kQuadsWorthABatch = 12;
+constexpr uint64_t kQuadsWorthABatch = 12;
 
 // All lanes of the quads that have one in `lanes`.
 uint64_t quads_of(uint64_t lanes) {
   const uint64_t pairs = lanes | lanes >> 1;
   return (pairs | pairs >> 2) & 0x1111111111111111;
+}
+
+// Whether they are kQuadsWorthABatch at least; `quads` has one bit for each of the 16.
+bool fill_a_batch(uint64_t quads) {
+  // Sums of four quads each, at most 4, in bytes and then all of them in the highest.
+  const uint64_t sums = (quads & 0x0101010101010101) + (quads >> 4 & 0x0101010101010101);
+  return (sums * 0x0101010101010101) >> 56 >= kQuadsWorthABatch;
+}
+
+typedef uint16_t EightQuads __attribute__((vector_size(16)));
+// From the block's first pixel and quad to its 16 quads.
+constexpr EightQuads kQuadX[2] = {{0, 2, 4, 6, 0, 2, 4, 6}, {0, 2, 4, 6, 0, 2, 4, 6}};
+constexpr EightQuads kQuadY[2] = {{0, 0, 0, 0, 2, 2, 2, 2}, {4, 4, 4, 4, 6, 6, 6, 6}};
+constexpr EightQuads kQuadNumber[2] = {{0, 1, 2, 3, 4, 5, 6, 7}, {8, 9, 10, 11, 12, 13, 14, 15}};
+
+void number_quads(uint16_t* quads, uint32_t first, const EightQuads (&steps)[2]) {
+  for (int half = 0; half < 2; ++half) {
+    const EightQuads values = steps[half] + static_cast<uint16_t>(first);
+    std::memcpy(quads + 8 * half, &values, sizeof values);
+  }
 }
 
 constexpr uint32_t first_quad_of_block(uint32_t block) { return first_texel_of_block(block) / 4; }
@@ -31,6 +52,7 @@ void QuadPacker::begin_pass(ExecutionLimits& limits) {
 void QuadPacker::begin_tile(const TilePlanes& planes, uint32_t tile_x, uint32_t tile_y) {
   batch_.planes = planes;
   block_batch_.planes = planes;
+  block_batch_.one_triangle = block_batch_.whole_block = true;
   tile_x_ = tile_x;
   tile_y_ = tile_y;
 }
@@ -54,7 +76,7 @@ void QuadPacker::end_tile() {
 
 void QuadPacker::add(const TriangleSetup& triangle, uint32_t block, uint64_t pixels) {
   const uint64_t quads = quads_of(pixels);
-  if (std::popcount(quads) >= kQuadsWorthABatch) return add_block(triangle, block, pixels);
+  if (fill_a_batch(quads)) return add_block(triangle, block, pixels);
   for (uint64_t rest = quads; rest != 0; rest &= rest - 1) {
     const uint32_t quad = static_cast<uint32_t>(std::countr_zero(rest)) / 4;
     add_quad(triangle, block, quad, pixels >> (4 * quad) & 0xF);
@@ -78,17 +100,10 @@ void QuadPacker::add_quad(const TriangleSetup& triangle, uint32_t block, uint32_
 
 void QuadPacker::add_block(const TriangleSetup& triangle, uint32_t block, uint64_t pixels) {
   if (block_last_[block] == batch_number_) flush();
-  const uint32_t x = tile_x_ + column_of_bit(block) * kBlockSize;
-  const uint32_t y = tile_y_ + row_of_bit(block) * kBlockSize;
-  const uint32_t first = first_quad_of_block(block);
-  for (uint32_t quad = 0; quad < kBatchQuads; ++quad) {
-    block_batch_.triangle[quad] = &triangle;
-    block_batch_.x[quad] = static_cast<uint16_t>(x + quad % kBlockQuadColumns * 2);
-    block_batch_.y[quad] = static_cast<uint16_t>(y + quad / kBlockQuadColumns * 2);
-    block_batch_.quad_in_tile[quad] = static_cast<uint16_t>(first + quad);
-  }
-  block_batch_.one_triangle = true;
-  block_batch_.whole_block = true;
+  if (block_batch_.triangle[0] != &triangle) std::fill_n(block_batch_.triangle, kBatchQuads, &triangle);
+  number_quads(block_batch_.x, tile_x_ + column_of_bit(block) * kBlockSize, kQuadX);
+  number_quads(block_batch_.y, tile_y_ + row_of_bit(block) * kBlockSize, kQuadY);
+  number_quads(block_batch_.quad_in_tile, first_quad_of_block(block), kQuadNumber);
   run(block_batch_, pixels);
 }
 

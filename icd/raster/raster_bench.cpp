@@ -40,7 +40,7 @@ struct BenchPass : ScenePass {
   void measure(benchmark::State& state) {
     build_draws(false, VK_FORMAT_R8G8B8A8_UNORM);
     for (auto _ : state) {
-      if (run() != VK_SUCCESS) state.SkipWithError("render");
+      if (run(false, false) != VK_SUCCESS) state.SkipWithError("render");
     }
   }
 };

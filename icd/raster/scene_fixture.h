@@ -132,7 +132,7 @@ struct ScenePass {
     }
   }
 
-  VkResult run(bool with_ledger = false) {
+  VkResult run(bool with_ledger = false, bool with_query = true) {
     const ResourceTable resources;
     std::vector<DrawCall> calls;
     for (Draw& draw : draws) {
@@ -143,7 +143,7 @@ struct ScenePass {
       call.bindings = draw.binding;
       call.resources = &resources;
       call.count = static_cast<uint32_t>(draw.vertices.size());
-      call.samples_passed = &draw.samples;
+      if (with_query) call.samples_passed = &draw.samples;
       if (with_ledger) call.ledger = &draw.ledger;
     }
     PassTarget target;

@@ -10,6 +10,12 @@ namespace {
 
 constexpr std::align_val_t kAlignment{64};
 
+// Bit x: the block in column x of the row is one of them.
+uint32_t columns_of(uint64_t blocks, uint32_t row) {
+  const uint32_t pairs = static_cast<uint32_t>(blocks >> bit_of(0, row)) & 0x3333;
+  return (pairs & 3) | (pairs >> 2 & 0xC) | (pairs >> 4 & 0x30) | (pairs >> 6 & 0xC0);
+}
+
 }  // namespace
 
 void TileStorage::Free::operator()(std::byte* memory) const { ::operator delete(memory, kAlignment); }
@@ -68,10 +74,8 @@ void TileStorage::move_blocks(size_t attachment, uint64_t blocks, Move how) {
   const uint32_t tile_x = area_.x0 / kTileSize * kTileSize;
   const uint32_t tile_y = area_.y0 / kTileSize * kTileSize;
   for (uint32_t row = 0; row < kBlocksPerTile; ++row) {
-    uint32_t columns = 0;
-    for (uint32_t column = 0; column < kBlocksPerTile; ++column) {
-      columns |= static_cast<uint32_t>(blocks >> bit_of(column, row) & 1) << column;
-    }
+    uint32_t columns = columns_of(blocks, row);
+    if (columns == 0) continue;
     const uint32_t y0 = std::max(tile_y + row * kBlockSize, area_.y0);
     const uint32_t y1 = std::min(tile_y + (row + 1) * kBlockSize, area_.y1);
     while (columns != 0) {

@@ -18,6 +18,9 @@ uint64_t depth_test_cost() {
   return uint64_t{kBatchLanes} * (op_info(Opcode::frag_depth).cost + op_info(Opcode::depth_test).cost);
 }
 
+// Pixels of a triangle's bounds: so few are covered one by one; fewer are tested rather than judged.
+constexpr int32_t kFewPixels = 6;
+constexpr int32_t kWorthJudging = 16;
 constexpr DepthRange kAnyDepth = {-std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity()};
 
 // Calls body(bit) for each bit that is set.
@@ -30,6 +33,7 @@ void for_each_bit(uint64_t word, Body&& body) {
 
 bool TileWorker::begin_pass(const TilePass& pass) {
   pass_ = &pass;
+  block_depth_ = &block_depth_functions();
   packer_.begin_pass(*pass.limits);
   depth_attachment_ = 0;
   while (depth_attachment_ < pass.attachments.size() && !pass.attachments[depth_attachment_].is_depth) {
@@ -167,11 +171,16 @@ void TileWorker::draw_triangle(const BinChunk& chunk, uint32_t index) {
   const bool one_block = rect.x0 / kBlock == (rect.x1 - 1) / kBlock && rect.y0 / kBlock == (rect.y1 - 1) / kBlock;
   if (one_block) {
     const uint32_t block = bit_of(static_cast<uint32_t>(rect.x0 / kBlock), static_cast<uint32_t>(rect.y0 / kBlock));
-    const uint64_t pixels = coverage_.pixels(block) & valid_[block];
+    const int32_t size = (rect.x1 - rect.x0) * (rect.y1 - rect.y0);
+    const bool few = size <= kFewPixels;
+    const uint64_t pixels = (few ? coverage_.few_pixels(block) : coverage_.pixels(block)) & valid_[block];
     if (pixels == 0) return;
-    draw_.covered += static_cast<uint64_t>(std::popcount(pixels));
+    if (draw_.tallies) draw_.covered += static_cast<uint64_t>(std::popcount(pixels));
     bool always = false;
-    if (draw_.early_depth && judge_block(block, rect, always)) return;
+    if (draw_.early_depth) {
+      triangle_depth_ = triangle_depth(setup());
+      if (size >= kWorthJudging && judge_block(block, rect, always)) return;
+    }
     draw_block(block, pixels, always);
     return;
   }
@@ -182,7 +191,9 @@ void TileWorker::draw_triangle(const BinChunk& chunk, uint32_t index) {
   BlockVerdicts verdicts{0, kAllBits};
   if (draw_.early_depth) {
     verdicts = judge_blocks(rect);
-    draw_.judged_blocks += static_cast<uint64_t>(std::popcount((verdicts.never | verdicts.always) & blocks.touched));
+    if (draw_.tallies) {
+      draw_.judged_blocks += static_cast<uint64_t>(std::popcount((verdicts.never | verdicts.always) & blocks.touched));
+    }
   }
   const uint64_t seen = blocks.touched & ~verdicts.never;
   const uint64_t whole = seen & blocks.inside & verdicts.always;
@@ -203,7 +214,6 @@ void TileWorker::count_covered(const TileCoverage::Blocks& blocks) {
 
 // True: nothing of it can pass.
 bool TileWorker::judge_block(uint32_t block, const PixelRect& rect, bool& always) {
-  triangle_depth_ = triangle_depth(setup());
   if (!pass_->judge_blocks) return false;
   const DepthBounds bounds = depth_bounds(triangle_depth_, tile_x_, tile_y_);
   if (!bounds.known) return false;
@@ -219,7 +229,7 @@ BlockVerdicts TileWorker::judge_blocks(const PixelRect& rect) {
   const DepthBounds bounds = depth_bounds(triangle_depth_, tile_x_, tile_y_);
   if (!bounds.known) return {};
   if (judge(draw_.compare, range_in_rect(bounds, rect), depth_.range()).never != 0) return {kAllBits, 0};
-  return hierarchical_depth_functions().judge(draw_.compare, bounds, depth_.ranges(), triangle_ranges_);
+  return judge(draw_.compare, bounds, depth_.ranges(), triangle_ranges_);
 }
 
 // Whole blocks that are known to pass.
@@ -244,7 +254,7 @@ void TileWorker::draw_block(uint32_t block, uint64_t pixels, bool always) {
     pixels = test_depth(block, pixels);
     if (pixels == 0) return;
   }
-  draw_.passed += static_cast<uint64_t>(std::popcount(pixels));
+  if (draw_.tallies) draw_.passed += static_cast<uint64_t>(std::popcount(pixels));
   switch (draw_.shading) {
     case Shading::none:
       return;
@@ -262,7 +272,7 @@ uint64_t TileWorker::test_depth(uint32_t block, uint64_t pixels) {
   float* const stored = depths_of(block);
   DepthRange range;
   const uint64_t passed =
-      block_depth_functions().test[draw_.compare](triangle_depth_, x, y, pixels, draw_.depth_write, stored, range);
+      block_depth_->test[draw_.compare](triangle_depth_, x, y, pixels, draw_.depth_write, stored, range);
   if (draw_.depth_write && passed != 0) depth_.set_range(block, range);
   return passed;
 }
@@ -290,8 +300,8 @@ float* TileWorker::depths_of(uint32_t block) {
   const TileTriangle& triangle = visibility_.triangle(owner);
   const TriangleSetup setup = make_triangle_setup(*triangle.chunk, triangle.chunk->triangles[triangle.index]);
   float* const depths = depth_.plane(block);
-  block_depth_functions().depth(triangle_depth(setup), tile_x_ + column_of_bit(block) * kBlockSize,
-                                tile_y_ + row_of_bit(block) * kBlockSize, depths);
+  block_depth_->depth(triangle_depth(setup), tile_x_ + column_of_bit(block) * kBlockSize,
+                      tile_y_ + row_of_bit(block) * kBlockSize, depths);
   depth_.set_in_plane(block);
   return depths;
 }

@@ -82,6 +82,7 @@ class TileWorker {
   void shade(const DrawCall& draw, std::span<const Pending> pending);
 
   const TilePass* pass_ = nullptr;
+  const BlockDepthFunctions* block_depth_ = nullptr;
   TileStorage storage_;
   TileDepth depth_;
   Visibility visibility_;

@@ -1,8 +1,6 @@
 // Numbers of triangles, 64 pixels at once.
 #include "raster/visibility.h"
 
-#include <bit>
-
 #include "base/simd_dispatch.h"
 #include "base/simd_targets.h"
 
@@ -28,13 +26,6 @@ void fill_lanes(uint32_t* numbers, uint64_t lanes, uint32_t value) {
   }
 }
 
-void copy_lanes(uint32_t* to, const uint32_t* from, uint64_t lanes) {
-  for (int i = 0; i < kVectorsPerBatch; ++i) {
-    const int at = i * kVectorLanes;
-    store(select(mask_of(lanes, i), load<U>(from + at), load<U>(to + at)), to + at);
-  }
-}
-
 uint64_t equal(const uint32_t* numbers, uint32_t value) {
   uint64_t lanes = 0;
   for (int i = 0; i < kLanes; i += kVectorLanes) lanes |= bits_of(eq(load<U>(numbers + i), broadcast(value))) << i;
@@ -44,7 +35,7 @@ uint64_t equal(const uint32_t* numbers, uint32_t value) {
 }  // namespace
 
 extern const LaneNumberFunctions kLaneNumbers;
-const LaneNumberFunctions kLaneNumbers = {fill, fill_lanes, copy_lanes, equal};
+const LaneNumberFunctions kLaneNumbers = {fill, fill_lanes, equal};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lapilli
@@ -63,17 +54,16 @@ const LaneNumberFunctions& lane_number_functions() { return for_target(kTables);
 void Visibility::cover(uint64_t blocks, uint32_t number) {
   whole_ |= blocks;
   mixed_ &= ~blocks;
-  lane_number_functions().fill_lanes(owner_, blocks, number);
+  functions_->fill_lanes(owner_, blocks, number);
 }
 
 void Visibility::cover_pixels(uint32_t block, uint64_t pixels, uint32_t number) {
   uint32_t* const seen = seen_ + block * kBlockTexels;
   const uint64_t bit = uint64_t{1} << block;
-  const LaneNumberFunctions& functions = lane_number_functions();
-  if ((mixed_ & bit) == 0) functions.fill(seen, (whole_ & bit) != 0 ? owner_[block] : kNobody);
+  if ((mixed_ & bit) == 0) functions_->fill(seen, (whole_ & bit) != 0 ? owner_[block] : kNobody);
   whole_ &= ~bit;
   mixed_ |= bit;
-  functions.fill_lanes(seen, pixels, number);
+  functions_->fill_lanes(seen, pixels, number);
 }
 
 }  // namespace lapilli

@@ -9,6 +9,14 @@
 
 namespace lapilli {
 
+// Lanes of 64 numbers; compiled for each SIMD target.
+struct LaneNumberFunctions {
+  void (*fill)(uint32_t* numbers, uint32_t value);
+  void (*fill_lanes)(uint32_t* numbers, uint64_t lanes, uint32_t value);
+  uint64_t (*equal)(const uint32_t* numbers, uint32_t value);
+};
+const LaneNumberFunctions& lane_number_functions();
+
 // A triangle that somebody may have to come back to in this tile, to shade it or to know its depths.
 struct TileTriangle {
   const BinChunk* chunk;
@@ -22,6 +30,7 @@ class Visibility {
   static constexpr uint32_t kNobody = 0;
 
   void begin_tile() {
+    functions_ = &lane_number_functions();
     whole_ = mixed_ = 0;
     triangles_.assign(1, {});
   }
@@ -46,19 +55,11 @@ class Visibility {
   void forget_pixels() { whole_ = mixed_ = 0; }
 
  private:
+  const LaneNumberFunctions* functions_ = nullptr;
   uint64_t whole_ = 0, mixed_ = 0;
   alignas(64) uint32_t owner_[64];          // of whole blocks
   alignas(64) uint32_t seen_[kTileTexels];  // [block's bit][lane], of mixed blocks
   std::vector<TileTriangle> triangles_;
 };
-
-// Lanes of 64 numbers; compiled for each SIMD target.
-struct LaneNumberFunctions {
-  void (*fill)(uint32_t* numbers, uint32_t value);
-  void (*fill_lanes)(uint32_t* numbers, uint64_t lanes, uint32_t value);
-  void (*copy_lanes)(uint32_t* to, const uint32_t* from, uint64_t lanes);
-  uint64_t (*equal)(const uint32_t* numbers, uint32_t value);
-};
-const LaneNumberFunctions& lane_number_functions();
 
 }  // namespace lapilli
