@@ -188,9 +188,6 @@ inline void end_handler(const Op*, Frame*, LAPILLI_ACCUMULATOR) {
 #define LAPILLI_DO(i) (void)x##i;
   LAPILLI_EACH(LAPILLI_DO)
 #undef LAPILLI_DO
-  // The compiler takes the vectors for alive. With their upper halves in use every SSE instruction of the caller that
-  // follows would be slow: a quarter of the time of simple programs.
-  __builtin_ia32_vzeroupper();
   clear_upper_lanes();
 }
 
