@@ -74,6 +74,14 @@ TEST_F(Determinism, AcrossSimdTargetsAndThreadsTogether) {
   expect_same("three threads, SSE2");
 }
 
+// What a draw is spared cannot be seen.
+TEST_F(Determinism, WhateverWorkIsKept) {
+  for (const char* kept : {"hidden", "blocks", "all"}) {
+    const Environment set("LAPILLI_KEEP", kept);
+    expect_same(std::string("LAPILLI_KEEP=") + kept);
+  }
+}
+
 #if defined(__x86_64__)
 // Threads inherit the control register of the one that creates them, so it is set before the device is made.
 TEST_F(Determinism, UnderTheApplicationsFloatingPointMode) {
