@@ -30,7 +30,9 @@ OUTSIDE = ["samples", "conformance", "bench"]
 INTRINSICS = re.compile(r"^(\w*mmintrin\.h|x86intrin\.h|arm_(neon|sve)\.h)$")
 HIGHWAY = re.compile(r"^hwy/")
 # Files compiled once per SIMD target, relative to icd/.
-PER_TARGET = re.compile(r"^(base/.*|image/[^/]*-inl\.h|shader/interpreter/.*)$")
+PER_TARGET = re.compile(
+    r"^(base/.*|image/[^/]*-inl\.h|shader/interpreter/.*|shader/block_depth\.cpp|geometry/[^/]*_lanes\.cpp|"
+    r"raster/(hierarchical_depth|visibility)\.cpp)$")
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
