@@ -37,16 +37,17 @@ const Series* find(const Findings& found, std::string_view scene) {
 
 Goal faster(const Findings& found, const char* what, std::initializer_list<std::pair<const char*, double>> scenes) {
   std::string required, measured;
+  bool all = true;
   bool holds = true;
   for (const auto& [scene, least] : scenes) {
     const Series* series = find(found, scene);
     const std::string separator = required.empty() ? "" : "; ";
     required += separator + number(least, 0) + "×";
     measured += separator + (series != nullptr ? times(series->ratio()) : "?");
-    if (series == nullptr) return unmeasured(what, required);
-    holds = holds && series->ratio() >= least;
+    all = all && series != nullptr;
+    holds = holds && series != nullptr && series->ratio() >= least;
   }
-  return goal(what, required, measured, holds);
+  return all ? goal(what, required, measured, holds) : unmeasured(what, required);
 }
 
 Goal every_scene(const Findings& found) {

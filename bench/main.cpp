@@ -71,7 +71,6 @@ int bench(const Arguments& arguments) {
   if (arguments.quick) {
     plan.starts = 1;
     plan.rounds = 3;
-    plan.turn_ms = 100;
   }
   const bool everything = arguments.scenes.empty();
   Machine machine;
@@ -79,7 +78,10 @@ int bench(const Arguments& arguments) {
   for (const VkExtent2D& size : sizes_of(arguments)) {
     const bool main_size = size.width == kMainSize.width && size.height == kMainSize.height;
     Plan here = plan;
-    if (!main_size) here.starts = 1;
+    if (!main_size) {
+      here.starts = 1;
+      here.rounds = 3;
+    }
     for (const SceneEntry* entry : scenes_of(arguments)) {
       machine.measure();
       Series series = measure(*entry, {size, arguments.count}, contestants_of(found.drivers), here);

@@ -13,8 +13,8 @@ namespace lapilli::bench {
 struct Plan {
   std::string program;  // this executable
   int starts = 3;       // fresh processes for pipelines and first frames
-  int rounds = 5;       // turns of each driver
-  double turn_ms = 120;
+  int rounds = 4;       // turns of each driver
+  double turn_ms = 100;
   int frames_per_turn = 200;  // at most
   std::string pictures;       // directory for PNGs of the last frames; empty: none
 };
