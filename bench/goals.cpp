@@ -87,7 +87,8 @@ Goal many_pipelines(const Findings& found) {
   const double ours = total(series->results.front());
   std::string measured;
   bool holds = true;
-  for (const auto& [driver, least] : {std::pair("SwiftShader", 50.0), std::pair("lavapipe", 150.0)}) {
+  for (const auto& [name, least] : {std::pair("SwiftShader", 50.0), std::pair("lavapipe", 150.0)}) {
+    const std::string driver = name;  // clang 14 does not let a lambda capture a structured binding
     const auto peer = std::find_if(series->results.begin(), series->results.end(),
                                    [&](const Result& r) { return r.driver == driver && r.absent.empty(); });
     const bool there = peer != series->results.end();
