@@ -136,8 +136,12 @@ void fill_tile(std::byte* plane, uint32_t texel_size, const PackedTexel& texel) 
 
 void fill_image_area(std::byte* image, uint64_t row_pitch, uint32_t texel_size, const TileArea& area,
                      const PackedTexel& texel) {
-  for (uint32_t y = area.y0; y < area.y1; ++y) {
-    fill_texels(image + row_pitch * y + uint64_t{area.x0} * texel_size, area.x1 - area.x0, texel_size, texel);
+  if (area.x1 <= area.x0 || area.y1 <= area.y0) return;
+  const uint32_t width = area.x1 - area.x0;
+  std::byte* const first = image + row_pitch * area.y0 + uint64_t{area.x0} * texel_size;
+  fill_texels(first, width, texel_size, texel);
+  for (uint64_t row = 1; row < area.y1 - area.y0; ++row) {
+    std::memcpy(first + row_pitch * row, first, uint64_t{width} * texel_size);
   }
 }
 
