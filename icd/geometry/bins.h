@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -120,6 +121,28 @@ struct CoverageEdges {
   int64_t c[3];
 };
 CoverageEdges make_edges(const BinChunk& chunk, const BinTriangle& triangle);
+
+// The same in TriangleSetup's units, E(x, y) = a*x + b*y + c for the centre of pixel (x, y), as integers. `owns`: a
+// centre with E = 0 belongs to the triangle (top-left rule).
+struct EdgeFunction {
+  int64_t a, b, c;
+  bool owns;
+};
+using EdgeFunctions = std::array<EdgeFunction, 3>;
+// Through q -> r, positive on the other vertex's side. The interior of an edge that goes up lies at greater x, that of
+// one to the right at greater y.
+inline EdgeFunction make_edge_function(const BinVertex& q, const BinVertex& r) {
+  const int64_t dx = int64_t{r.x} - q.x;
+  const int64_t dy = int64_t{r.y} - q.y;
+  return {-dy * 256, dx * 256, dx * (128 - int64_t{q.y}) - dy * (128 - int64_t{q.x}), dy < 0 || (dy == 0 && dx > 0)};
+}
+inline EdgeFunctions make_edge_functions(const BinChunk& chunk, const BinTriangle& triangle) {
+  const BinVertex& p = chunk.vertices[triangle.v[0]];
+  const BinVertex& q = chunk.vertices[triangle.v[1]];
+  const BinVertex& r = chunk.vertices[triangle.v[2]];
+  return {make_edge_function(q, r), make_edge_function(r, p), make_edge_function(p, q)};
+}
+DepthPlane make_depth_plane(const BinChunk& chunk, const BinTriangle& triangle, const EdgeFunctions& edges);
 
 // What a triangle needs to be depth tested and shaded; `varyings` is left alone.
 TriangleSetup make_triangle_setup(const BinChunk& chunk, const BinTriangle& triangle);

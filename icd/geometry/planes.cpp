@@ -7,21 +7,6 @@
 namespace lapilli {
 namespace {
 
-// An edge function through q -> r, positive on the side of p, for pixel centres: a*x + b*y + c in 1/65536 square
-// pixels.
-struct Edge {
-  int64_t a, b, c;
-  // Top-left rule: a centre on the edge belongs to the triangle if the interior lies at greater x, or the edge is
-  // horizontal and the interior lies at greater y.
-  bool owns;
-};
-
-Edge make_edge(const BinVertex& q, const BinVertex& r) {
-  const int64_t dx = int64_t{r.x} - q.x;
-  const int64_t dy = int64_t{r.y} - q.y;
-  return {-dy * 256, dx * 256, dx * (128 - int64_t{q.y}) - dy * (128 - int64_t{q.x}), dy < 0 || (dy == 0 && dx > 0)};
-}
-
 struct Corners {
   const BinVertex& p;
   const BinVertex& q;
@@ -33,9 +18,9 @@ Corners corners_of(const BinChunk& chunk, const BinTriangle& triangle) {
 }
 
 // Depth bias: o = clamp(m * slope + r * constant). Chapter "Rasterization", Depth Bias; r for a float depth buffer.
-double depth_bias(const BinRun& run, const TriangleSetup& setup, const Corners& corners) {
-  const double dzdx = setup.edge_a[1] * setup.depth.k1 + setup.edge_a[2] * setup.depth.k2;
-  const double dzdy = setup.edge_b[1] * setup.depth.k1 + setup.edge_b[2] * setup.depth.k2;
+double depth_bias(const BinRun& run, const EdgeFunctions& edges, const DepthPlane& plane, const Corners& corners) {
+  const double dzdx = static_cast<double>(edges[1].a) * plane.k1 + static_cast<double>(edges[2].a) * plane.k2;
+  const double dzdy = static_cast<double>(edges[1].b) * plane.k1 + static_cast<double>(edges[2].b) * plane.k2;
   const double slope = std::sqrt(dzdx * dzdx + dzdy * dzdy);
   const double largest = std::max({std::fabs(corners.p.z), std::fabs(corners.q.z), std::fabs(corners.r.z)});
   const double unit = largest > 0 ? std::ldexp(1.0, std::ilogb(largest) - 23) : 0.0;
@@ -46,13 +31,16 @@ double depth_bias(const BinRun& run, const TriangleSetup& setup, const Corners& 
   return std::isnan(bias) ? 0.0 : bias;
 }
 
+double inverse_area2(const EdgeFunctions& edges) {
+  return 1.0 / static_cast<double>(edges[0].c + edges[1].c + edges[2].c);
+}
+
 }  // namespace
 
 CoverageEdges make_edges(const BinChunk& chunk, const BinTriangle& triangle) {
-  const auto [p, q, r] = corners_of(chunk, triangle);
-  const Edge edges[3] = {make_edge(q, r), make_edge(r, p), make_edge(p, q)};
+  const EdgeFunctions edges = make_edge_functions(chunk, triangle);
   CoverageEdges out;
-  for (int i = 0; i < 3; ++i) {
+  for (size_t i = 0; i < 3; ++i) {
     // a and b are multiples of 256, so floor(c / 256) decides the same.
     out.a[i] = static_cast<int32_t>(edges[i].a >> 8);
     out.b[i] = static_cast<int32_t>(edges[i].b >> 8);
@@ -61,20 +49,26 @@ CoverageEdges make_edges(const BinChunk& chunk, const BinTriangle& triangle) {
   return out;
 }
 
+DepthPlane make_depth_plane(const BinChunk& chunk, const BinTriangle& triangle, const EdgeFunctions& edges) {
+  const auto [p, q, r] = corners_of(chunk, triangle);
+  const BinRun& run = chunk.run_of(triangle);
+  const double inverse = inverse_area2(edges);
+  DepthPlane plane = {p.z, (q.z - p.z) * inverse, (r.z - p.z) * inverse, run.min_depth, run.max_depth};
+  if (run.depth_bias) plane.z0 += depth_bias(run, edges, plane, {p, q, r});
+  return plane;
+}
+
 TriangleSetup make_triangle_setup(const BinChunk& chunk, const BinTriangle& triangle) {
   const auto [p, q, r] = corners_of(chunk, triangle);
-  const Edge edges[3] = {make_edge(q, r), make_edge(r, p), make_edge(p, q)};
+  const EdgeFunctions edges = make_edge_functions(chunk, triangle);
   TriangleSetup setup;
-  for (int i = 0; i < 3; ++i) {
+  for (size_t i = 0; i < 3; ++i) {
     setup.edge_a[i] = static_cast<double>(edges[i].a);
     setup.edge_b[i] = static_cast<double>(edges[i].b);
     setup.edge_c[i] = static_cast<double>(edges[i].c);
   }
-  setup.inverse_area2 = 1.0 / static_cast<double>(edges[0].c + edges[1].c + edges[2].c);
-  const BinRun& run = chunk.run_of(triangle);
-  setup.depth = {p.z, (q.z - p.z) * setup.inverse_area2, (r.z - p.z) * setup.inverse_area2, run.min_depth,
-                 run.max_depth};
-  if (run.depth_bias) setup.depth.z0 += depth_bias(run, setup, {p, q, r});
+  setup.inverse_area2 = inverse_area2(edges);
+  setup.depth = make_depth_plane(chunk, triangle, edges);
   setup.inverse_w[0] = p.inverse_w;
   setup.inverse_w[1] = q.inverse_w;
   setup.inverse_w[2] = r.inverse_w;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 
 #include "base/block_signs.h"
 
@@ -75,23 +74,6 @@ TileCoverage::Blocks TileCoverage::blocks() const {
   }
   blocks.inside &= blocks.touched;
   return blocks;
-}
-
-// Pixel by pixel: cheaper than whole blocks for the smallest of triangles.
-uint64_t TileCoverage::few_pixels(uint32_t block) const {
-  uint64_t pixels = 0;
-  for (int32_t y = bounds_.y0; y < bounds_.y1; ++y) {
-    for (int32_t x = bounds_.x0; x < bounds_.x1; ++x) {
-      int32_t outside = 0;  // negative
-      for (uint32_t i = 0; i < count_; ++i) outside |= edges_[i].c + edges_[i].a * x + edges_[i].b * y;
-      const uint32_t column = static_cast<uint32_t>(x) % kBlockSize, row = static_cast<uint32_t>(y) % kBlockSize;
-      if (outside >= 0) pixels |= uint64_t{1} << bit_of(column, row);
-    }
-  }
-  assert(bit_of(static_cast<uint32_t>(bounds_.x0) / kBlockSize, static_cast<uint32_t>(bounds_.y0) / kBlockSize) ==
-         block);
-  (void)block;
-  return pixels;
 }
 
 uint64_t TileCoverage::pixels(uint32_t block) const {

@@ -39,8 +39,6 @@ class TileCoverage {
   Blocks blocks() const;
   // The covered pixels of a block.
   uint64_t pixels(uint32_t block) const;
-  // The same for bounds that lie in this block alone and are small.
-  uint64_t few_pixels(uint32_t block) const;
 
  private:
   struct Edge {

@@ -10,6 +10,14 @@ namespace {
 // A block with more triangles is taken apart quad by quad.
 constexpr int kMostPartsOfABlock = 4;
 
+constexpr size_t kVaryingsAhead = 8;  // triangles
+void prefetch_varyings(const TileTriangle& triangle) {
+  const BinChunk& chunk = *triangle.chunk;
+  for (const uint16_t v : chunk.triangles[triangle.index].v) {
+    __builtin_prefetch(chunk.varyings.data() + chunk.vertices[v].varyings);
+  }
+}
+
 }  // namespace
 
 void TileWorker::resolve() {
@@ -78,7 +86,10 @@ void TileWorker::collect_pending() {
 
 void TileWorker::shade(const DrawCall& draw, std::span<const Pending> pending) {
   packer_.begin_draw(draw, false);
-  for (const Pending& each : pending) {
+  for (size_t i = 0; i < pending.size(); ++i) {
+    if (i + kVaryingsAhead < pending.size())
+      prefetch_varyings(visibility_.triangle(pending[i + kVaryingsAhead].triangle));
+    const Pending& each = pending[i];
     const TriangleSetup& setup = setups_.of(visibility_.triangle(each.triangle));
     if (each.quad == kManyQuads) {
       packer_.add(setup, each.block, each.pixels);

@@ -54,6 +54,8 @@ void TileDepth::cover(uint64_t blocks, uint32_t triangle, const BlockRanges& ran
   changed_ |= blocks;
 }
 
+void TileDepth::tighten(uint32_t block) { set_range(block, block_depth_functions().range(plane(block))); }
+
 DepthRange TileDepth::range() {
   if (range_is_old_) range_ = hierarchical_depth_functions().range(ranges_);
   range_is_old_ = false;

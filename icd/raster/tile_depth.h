@@ -39,11 +39,23 @@ class TileDepth {
     ranges_.max[block] = range.max;
     range_is_old_ = true;
     changed_ |= uint64_t{1} << block;
+    included_[block] = 0;
+  }
+  // One depth of the block has changed in the plane, to z. The range only grows, so that it is made anew now and then.
+  void include(uint32_t block, float z) {
+    if (++included_[block] == kMostIncluded || z != z) return tighten(block);
+    ranges_.min[block] = z < ranges_.min[block] ? z : ranges_.min[block];
+    ranges_.max[block] = z > ranges_.max[block] ? z : ranges_.max[block];
+    range_is_old_ = true;
+    changed_ |= uint64_t{1} << block;
   }
   // Blocks whose depths are no longer those that the tile began with.
   uint64_t changed() const { return changed_; }
 
  private:
+  static constexpr uint8_t kMostIncluded = 32;
+  void tighten(uint32_t block);
+
   float* plane_ = nullptr;
   float clear_ = 0;
   bool range_is_old_ = false;
@@ -51,6 +63,7 @@ class TileDepth {
   uint64_t changed_ = 0;
   BlockRanges ranges_;
   alignas(64) uint32_t owner_[64];
+  uint8_t included_[64] = {};  // since the range was exact
 };
 
 }  // namespace lapilli

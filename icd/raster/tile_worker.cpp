@@ -18,9 +18,10 @@ uint64_t depth_test_cost() {
   return uint64_t{kBatchLanes} * (op_info(Opcode::frag_depth).cost + op_info(Opcode::depth_test).cost);
 }
 
-// Pixels of a triangle's bounds: so few are covered one by one; fewer are tested rather than judged.
-constexpr int32_t kFewPixels = 6;
+// Pixels of a triangle's bounds: fewer are tested rather than judged.
 constexpr int32_t kWorthJudging = 16;
+constexpr size_t kVerticesAhead = 8;        // triangles
+constexpr size_t kTrianglesPerLook = 1024;  // at the time limit
 constexpr DepthRange kAnyDepth = {-std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity()};
 
 // Calls body(bit) for each bit that is set.
@@ -84,17 +85,32 @@ void TileWorker::draw_triangles(uint32_t tile, const BinSet& set) {
     (attachment.is_depth ? planes.depth : planes.color[attachment.color_index]) = storage_.plane(i, 0);
   }
   packer_.begin_tile(planes, tile_x_, tile_y_);
-  for (const BinChunk& chunk : set.chunks) {
-    for (const uint32_t index : chunk.tile(tile)) {
-      const BinRun& run = chunk.run_of(chunk.triangles[index]);
-      if (&run != draw_.run) begin_draw(run);
-      draw_triangle(chunk, index);
+  list_triangles(tile, set);
+  for (size_t i = 0; i < listed_.size(); ++i) {
+    if (i + kVerticesAhead < listed_.size()) {
+      const auto& [chunk, index] = listed_[i + kVerticesAhead];
+      for (const uint16_t v : chunk->triangles[index].v) __builtin_prefetch(&chunk->vertices[v]);
     }
-    if (pass_->limits->expired.load(std::memory_order_relaxed)) break;
+    const auto& [chunk, index] = listed_[i];
+    const BinRun& run = chunk->run_of(chunk->triangles[index]);
+    if (&run != draw_.run) begin_draw(run);
+    draw_triangle(*chunk, index);
+    if (i % kTrianglesPerLook == 0 && pass_->limits->expired.load(std::memory_order_relaxed)) break;
   }
   end_draw();
   resolve();
   packer_.end_tile();
+}
+
+// The tile's triangles of all chunks. Few of a chunk lie in one tile: without reading ahead each would wait for memory.
+void TileWorker::list_triangles(uint32_t tile, const BinSet& set) {
+  listed_.clear();
+  for (const BinChunk& chunk : set.chunks) {
+    for (const uint32_t index : chunk.tile(tile)) {
+      __builtin_prefetch(&chunk.triangles[index]);
+      listed_.push_back({&chunk, index});
+    }
+  }
 }
 
 void TileWorker::begin_draw(const BinRun& run) {
@@ -160,6 +176,7 @@ void TileWorker::draw_triangle(const BinChunk& chunk, uint32_t index) {
   const int32_t x = static_cast<int32_t>(tile_x_);
   const int32_t y = static_cast<int32_t>(tile_y_);
   PixelRect rect = intersect({triangle.x0 - x, triangle.y0 - y, triangle.x1 - x, triangle.y1 - y}, tile_rect_);
+  if (is_few(rect)) return draw_few_pixels(chunk, index, rect);
   // A block is whole if all of it that can be seen is covered.
   if (rect.x0 == tile_rect_.x0) rect.x0 &= -kBlock;
   if (rect.y0 == tile_rect_.y0) rect.y0 &= -kBlock;
@@ -172,8 +189,7 @@ void TileWorker::draw_triangle(const BinChunk& chunk, uint32_t index) {
   if (one_block) {
     const uint32_t block = bit_of(static_cast<uint32_t>(rect.x0 / kBlock), static_cast<uint32_t>(rect.y0 / kBlock));
     const int32_t size = (rect.x1 - rect.x0) * (rect.y1 - rect.y0);
-    const bool few = size <= kFewPixels;
-    const uint64_t pixels = (few ? coverage_.few_pixels(block) : coverage_.pixels(block)) & valid_[block];
+    const uint64_t pixels = coverage_.pixels(block) & valid_[block];
     if (pixels == 0) return;
     if (draw_.tallies) draw_.covered += static_cast<uint64_t>(std::popcount(pixels));
     bool always = false;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "raster/few_pixels.h"
 #include "raster/quad_packer.h"
 #include "raster/setup_ring.h"
 #include "raster/tile_depth.h"
@@ -60,11 +61,14 @@ class TileWorker {
   static constexpr uint8_t kManyQuads = 0xFF;
 
   void draw_triangles(uint32_t tile, const BinSet& set);
+  void list_triangles(uint32_t tile, const BinSet& set);
   void begin_draw(const BinRun& run);
   void end_draw();
   void report_draw();
   void begin_depth();
   void draw_triangle(const BinChunk& chunk, uint32_t index);
+  void draw_few_pixels(const BinChunk& chunk, uint32_t index, const PixelRect& rect);
+  uint32_t test_few_depths(uint32_t block, FewPixels& few, const DepthPlane& plane);
   void count_covered(const TileCoverage::Blocks& blocks);
   bool judge_block(uint32_t block, const PixelRect& rect, bool& always);
   BlockVerdicts judge_blocks(const PixelRect& rect);
@@ -103,6 +107,11 @@ class TileWorker {
   TileCoverage coverage_;
   BlockRanges triangle_ranges_;
 
+  struct Listed {
+    const BinChunk* chunk;
+    uint32_t index;  // in chunk->triangles
+  };
+  std::vector<Listed> listed_;
   std::vector<const DrawCall*> deferred_draws_;  // TileTriangle::draw
   std::vector<Pending> pending_, sorted_;
   std::vector<uint32_t> draw_end_;

@@ -57,13 +57,17 @@ void Visibility::cover(uint64_t blocks, uint32_t number) {
   functions_->fill_lanes(owner_, blocks, number);
 }
 
-void Visibility::cover_pixels(uint32_t block, uint64_t pixels, uint32_t number) {
-  uint32_t* const seen = seen_ + block * kBlockTexels;
+// From one number for the block to one for each pixel.
+void Visibility::mix(uint32_t block) {
   const uint64_t bit = uint64_t{1} << block;
-  if ((mixed_ & bit) == 0) functions_->fill(seen, (whole_ & bit) != 0 ? owner_[block] : kNobody);
+  functions_->fill(seen_ + block * kBlockTexels, (whole_ & bit) != 0 ? owner_[block] : kNobody);
   whole_ &= ~bit;
   mixed_ |= bit;
-  functions_->fill_lanes(seen, pixels, number);
+}
+
+void Visibility::cover_pixels(uint32_t block, uint64_t pixels, uint32_t number) {
+  if ((mixed_ >> block & 1) == 0) mix(block);
+  functions_->fill_lanes(seen_ + block * kBlockTexels, pixels, number);
 }
 
 }  // namespace lapilli

@@ -45,6 +45,10 @@ class Visibility {
   // From here on the triangle is what is seen: in whole blocks, or in the pixels of one.
   void cover(uint64_t blocks, uint32_t number);
   void cover_pixels(uint32_t block, uint64_t pixels, uint32_t number);
+  void cover_pixel(uint32_t block, uint32_t pixel, uint32_t number) {
+    if ((mixed_ >> block & 1) == 0) mix(block);
+    seen_[block * kBlockTexels + pixel] = number;
+  }
 
   // Blocks with a pixel that waits to be shaded, by one triangle or by any.
   bool pending() const { return (whole_ | mixed_) != 0; }
@@ -55,6 +59,8 @@ class Visibility {
   void forget_pixels() { whole_ = mixed_ = 0; }
 
  private:
+  void mix(uint32_t block);
+
   const LaneNumberFunctions* functions_ = nullptr;
   uint64_t whole_ = 0, mixed_ = 0;
   alignas(64) uint32_t owner_[64];          // of whole blocks
