@@ -43,7 +43,7 @@ const HandlerEntry kEntries[] = {
     LAPILLI_HOT2(fsub, F(F, F)),      LAPILLI_HOT1(fmul, F(F, F)),      LAPILLI_HOT2(fdiv, F(F, F)),
     LAPILLI_HOT_FMA(fma, F(F, F, F)), LAPILLI_HOT1(fneg, F(F)),         LAPILLI_HOT1(fabs, F(F)),
     LAPILLI_HOT2(fmin, F(F, F)),      LAPILLI_HOT2(fmax, F(F, F)),      LAPILLI_HOT1(nmin, F(F, F)),
-    LAPILLI_HOT1(nmax, F(F, F)),      LAPILLI_COLD(ffloor, F(F)),       LAPILLI_COLD(fceil, F(F)),
+    LAPILLI_HOT1(nmax, F(F, F)),      LAPILLI_HOT1(ffloor, F(F)),       LAPILLI_COLD(fceil, F(F)),
     LAPILLI_COLD(ftrunc, F(F)),       LAPILLI_COLD(fround_even, F(F)),  LAPILLI_COLD(fsign, F(F)),
 };
 

@@ -42,9 +42,9 @@ LAPILLI_OP1(ffrexp_significand, frexp(a).significand)
 LAPILLI_OP1(ffrexp_exponent, frexp(a).exponent)
 
 const HandlerEntry kEntries[] = {
-    LAPILLI_COLD(fsqrt, F(F)),
+    LAPILLI_HOT1(fsqrt, F(F)),
     LAPILLI_COLD(frsqrt, F(F)),
-    LAPILLI_COLD(ffract, F(F)),
+    LAPILLI_HOT1(ffract, F(F)),
     LAPILLI_COLD(frem, F(F, F)),
     LAPILLI_COLD(fmod, F(F, F)),
     LAPILLI_COLD(fsin, F(F)),

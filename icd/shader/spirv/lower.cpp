@@ -154,7 +154,9 @@ Reg Lowering::emit(Opcode op, Reg a, Reg b, Reg c) {
     if (y && (*y == neutral || *y == ~neutral)) return *y == neutral ? a : b;
   }
   if (op == Opcode::inot && x) return constant(~*x);
-  if (op == Opcode::ieq && x && y) return constant(*x == *y ? 0xFFFFFFFF : 0);
+  if (x && y) {
+    if (const auto folded = fold_integers(op, *x, *y)) return constant(*folded);
+  }
   if (op == Opcode::select && x) return *x != 0 ? b : c;
   return code_.emit(op, a, b, c);
 }

@@ -49,6 +49,11 @@ std::span<const Reg> Lowering::lower_function(const SpirvFunction& function) {
   uint32_t loop = kNoLoop;
   for (uint32_t position = 0; position < function.order.size() && !failed(); ++position) {
     while (loop != kNoLoop && function.loops[loop].end == position) {
+      const uint32_t header = function.order[function.loops[loop].header];
+      if (!frame.loops[loop].open && (frame.fallthrough == header || frame.blocks[header].reached)) {
+        position = function.loops[loop].header;  // the next round of one that is unrolled
+        break;
+      }
       close_loop(loop);
       loop = function.loops[loop].parent;
     }
@@ -119,6 +124,14 @@ bool Lowering::begin_block(uint32_t index) {
     return true;
   }
   LoopState& loop = frame_->loops[block.loop];
+  for (uint32_t position = block.position + 1; position < function.loops[block.loop].end; ++position)
+    frame_->blocks[function.order[position]] = {};  // of the round before
+  if (falls_through || unrolls(block.loop, state.known)) {
+    if (!falls_through) enter(state);
+    state = {};
+    --loop.rounds_left;
+    return true;
+  }
   loop.open = true;
   loop.label = code_.new_label();
   loop.first_register = static_cast<Reg>(code_.registers.size());
@@ -215,6 +228,12 @@ void Lowering::go_to(uint32_t target) {
   const bool same_loop = from.loop == to.loop;
   if (to.position == from.position + 1 && to.predecessors.size() == 1 && same_loop && !function.is_header(to)) {
     copy_to_phis(target, kNoReg, false);
+    frame_->fallthrough = target;
+    return;
+  }
+  // As does the way around of a loop that is unrolled.
+  if (same_loop && function.is_header(to) && from.position + 1 == function.loops[to.loop].end &&
+      !frame_->loops[to.loop].open && !frame_->blocks[target].reached && unrolls(to.loop, known_)) {
     frame_->fallthrough = target;
     return;
   }
@@ -361,7 +380,7 @@ Reg Lowering::first_inner_register(uint32_t target_position) const {
   Reg first = kNoReg;
   for (uint32_t loop = function.blocks[frame_->block].loop; loop != kNoLoop; loop = function.loops[loop].parent) {
     if (target_position < function.loops[loop].end) break;
-    first = frame_->loops[loop].first_register;
+    if (frame_->loops[loop].open) first = frame_->loops[loop].first_register;
   }
   return first;
 }

@@ -91,6 +91,15 @@ struct Value {
   Pointer pointer;
 };
 
+// An integer op of two constants; nothing for ops that are not folded here.
+std::optional<uint32_t> fold_integers(Opcode op, uint32_t a, uint32_t b);
+// The op behind a comparison of integers, and whether its operands are swapped. kCount: it is none.
+struct ComparedIntegers {
+  Opcode op = Opcode::kCount;
+  bool swapped = false;
+};
+ComparedIntegers compared_integers(spv::Op op);
+
 // Known contents of variable registers: variable register, register with the same value; sorted.
 using Known = std::vector<std::pair<Reg, Reg>>;
 
@@ -155,8 +164,11 @@ class Lowering {
   struct LoopState {
     uint32_t label = 0;
     Reg first_register = 0;  // registers from here on were made inside
-    bool open = false;
+    bool open = false;       // a loop over masks, not (or no longer) unrolled
     std::vector<std::pair<uint32_t, Value>> exports;
+    bool forecast = false;  // the rest says something
+    uint32_t rounds = 0, rounds_left = 0;
+    size_t first_instruction = 0;
   };
   struct Frame {
     const SpirvFunction* function;
@@ -189,6 +201,11 @@ class Lowering {
   Reg first_inner_register(uint32_t target_position) const;
   void forget_stored_in_loop(uint32_t loop);
   uint32_t root_of_pointer(uint32_t id) const;
+
+  // --- unroll.cpp ---
+  bool may_unroll(uint32_t loop) const;
+  uint32_t count_rounds(uint32_t loop, const Known& known);
+  bool unrolls(uint32_t loop, const Known& known);
 
   // --- lower_memory.cpp ---
   Variable* new_variable(uint64_t components);
