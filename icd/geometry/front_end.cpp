@@ -50,6 +50,8 @@ uint64_t count_triangles(const DrawCall& draw) {
   return sum * draw.instance_count;
 }
 
+constexpr uint32_t kWorthALook = 1u << 16;  // vertices of a draw: the clock is read for each run
+
 }  // namespace
 
 struct FrontEnd::Worker {
@@ -107,6 +109,8 @@ bool FrontEnd::seek_triangle() {
   while (draw_ < draws_.size()) {
     if (triangle_ < run_triangles_) return true;
     const DrawCall& draw = draws_[draw_];
+    // A run, or a look for restarts that found none, may be 2^32 indices long.
+    if (draw.count >= kWorthALook && limits_->read_clock()) return false;
     if (next_run(draw, after_run_, run_)) {
       triangle_ = 0;
       run_triangles_ = triangle_count(draw.state->raster.topology, run_.count);
@@ -152,7 +156,7 @@ bool FrontEnd::next(BinSet& set) {
   std::atomic<uint64_t> bytes{0};
   std::atomic<bool> failed{false};
   pool_.parallel_for(left, [&](size_t, unsigned worker) {
-    if (bytes.load(std::memory_order_relaxed) >= kSetBytes) return;
+    if (bytes.load(std::memory_order_relaxed) >= kSetBytes || limits_->read_clock()) return;
     const size_t i = taken.fetch_add(1, std::memory_order_relaxed);
     try {
       fill(plans_[done_plans_ + i], *workers_[worker], chunks_[i]);

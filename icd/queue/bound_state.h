@@ -49,6 +49,8 @@ void push_constants(BoundState& state, const cmd::PushConstants& command);
 // `member` is one of state.dynamic.
 template <class T>
 void set_dynamic(BoundState& state, T& member, const T& value) {
+  // Bits, not values: two patterns of one value cost a flattening, no more.
+  // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
   if (std::memcmp(&member, &value, sizeof(T)) == 0) return;
   std::memcpy(&member, &value, sizeof(T));
   state.stale |= kStaleState;

@@ -18,13 +18,13 @@ class QuadPacker {
   void begin_tile(const TilePlanes& planes, uint32_t tile_x, uint32_t tile_y);
   // From here on quads belong to `draw`. Runs what is pending of the draw before. `count_samples`: the program counts.
   void begin_draw(const DrawCall& draw, bool count_samples);
-  // Adds pixels of a block, by its bit. The triangle must stay where it is until kBatchQuads more calls were made or
-  // the next flush.
+  // Adds pixels of a block, by its bit. The triangle must stay where it is until nothing is pending any more.
   void add(const TriangleSetup& triangle, uint32_t block, uint64_t pixels);
   // Adds the pixels (not 0) of one quad of a block, as bits 0 to 3.
   void add_quad(const TriangleSetup& triangle, uint32_t block, uint32_t quad, uint64_t pixels);
   // Runs the pending quads.
   void flush();
+  bool has_pending() const { return count_ != 0; }
   // Ends the draw and the tile.
   void end_tile();
   bool out_of_memory() const { return out_of_memory_; }

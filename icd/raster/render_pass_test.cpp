@@ -24,6 +24,7 @@ struct Pass {
   std::vector<std::vector<Vertex>> vertices;  // per draw
   uint64_t samples = 0;
   uint32_t instances = 1;
+  bool out_of_time = false;
 
   Pass(uint32_t w, uint32_t h, unsigned threads, bool with_depth, bool accumulate)
       : pool(threads), renderer(pool), width(w), height(h), color(size_t{w} * h * 4, 0.0f), depth(size_t{w} * h, 1.0f) {
@@ -71,6 +72,7 @@ struct Pass {
     target.color = std::span(&color_target, 1);
     target.depth = depth_target;
     ExecutionLimits limits;
+    if (out_of_time) limits.deadline = std::chrono::steady_clock::now();
     return renderer.render(target, draws, limits);
   }
   const float* pixel(uint32_t x, uint32_t y) const { return &color[(size_t{y} * width + x) * 4]; }
@@ -173,6 +175,35 @@ TEST(RenderPass, ManySetsOfBins) {
 }
 
 // Two vertices make no triangle, however many instances there are.
+// A quad that waits for its batch while whole blocks of 200 other triangles are shaded is still shaded with its own.
+TEST(RenderPass, PendingQuadsKeepTheirTriangle) {
+  Pass pass(16, 8, 1, false, true);
+  std::vector<Vertex>& vertices = pass.vertices.emplace_back();
+  const auto add = [&](float x, float y, float value) {  // pixels
+    vertices.push_back({{x / 8 - 1, y / 4 - 1, 0, 1}, {value, value, value, value}});
+  };
+  add(2.2f, 2.2f, 1);
+  add(2.9f, 2.2f, 1);
+  add(2.5f, 3.0f, 1);
+  for (int i = 0; i < 200; ++i) {
+    add(8, -20, 0.5f);
+    add(60, 4, 0.5f);
+    add(8, 28, 0.5f);
+  }
+  ASSERT_EQ(pass.run(), VK_SUCCESS);
+  EXPECT_EQ(pass.pixel(2, 2)[0], 1);
+  EXPECT_EQ(pass.pixel(12, 4)[0], 100);
+  EXPECT_EQ(pass.pixel(3, 2)[0], 0);
+}
+
+TEST(RenderPass, TheTimeLimitHoldsOutsideOfShaders) {
+  Pass pass(64, 64, 2, false, false);
+  add_rectangle(pass.vertices.emplace_back(), 2, 2, 3, 3, 0, 1);  // outside: no shader runs on it
+  pass.instances = ~0u;
+  pass.out_of_time = true;
+  EXPECT_EQ(pass.run(), VK_ERROR_DEVICE_LOST);
+}
+
 TEST(RenderPass, DrawsWithoutATriangleCostNothing) {
   Pass pass(8, 8, 1, false, false);
   pass.vertices.resize(1);

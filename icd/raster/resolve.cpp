@@ -90,6 +90,7 @@ void TileWorker::shade(const DrawCall& draw, std::span<const Pending> pending) {
     if (i + kVaryingsAhead < pending.size())
       prefetch_varyings(visibility_.triangle(pending[i + kVaryingsAhead].triangle));
     const Pending& each = pending[i];
+    keep_pending_setups();
     const TriangleSetup& setup = setups_.of(visibility_.triangle(each.triangle));
     if (each.quad == kManyQuads) {
       packer_.add(setup, each.block, each.pixels);

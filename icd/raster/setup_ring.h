@@ -1,4 +1,5 @@
-// The triangle set-ups that batches point to: made when a triangle is shaded, kept while it may be in a pending batch.
+// The triangle set-ups that batches point to: made when a triangle is shaded, overwritten when kCount more have been
+// made. Whoever makes them runs what is pending before that (TileWorker::keep_pending_setups).
 #pragma once
 
 #include "raster/visibility.h"
@@ -8,7 +9,11 @@ namespace lapilli {
 
 class SetupRing {
  public:
+  // Of the tile; so many more may be made or asked for while a batch is pending.
+  static constexpr uint32_t kMostWhilePending = 64;
+
   void begin_tile() { made_ = 0; }
+  uint32_t made() const { return made_; }
 
   // `setup`: the triangle's, if somebody has made it already.
   const TriangleSetup& make(const BinChunk& chunk, const BinTriangle& triangle, const TriangleSetup* setup) {
@@ -28,9 +33,10 @@ class SetupRing {
   }
 
  private:
-  static constexpr uint32_t kCount = 64;
-  // What is handed out stays while kBatchQuads more are made.
-  static constexpr uint32_t kUsable = kCount - kBatchQuads;
+  static constexpr uint32_t kCount = 128;
+  // One that is as old as this is made anew, so that what is handed out outlives kMostWhilePending others.
+  static constexpr uint32_t kUsable = 32;
+  static_assert(kUsable + kMostWhilePending < kCount);
   TriangleSetup setups_[kCount];
   float varyings_[kCount][3 * kMaxVaryingComponents];
   uint32_t made_ = 0;

@@ -77,6 +77,7 @@ void TileWorker::draw_triangles(uint32_t tile, const BinSet& set) {
   for (uint32_t block = 0; block < 64; ++block) valid_[block] = pixels_in_rect(tile_rect_, block);
   visibility_.begin_tile();
   setups_.begin_tile();
+  first_pending_ = 0;
   deferred_draws_.clear();
   draw_ = {};
   TilePlanes planes;
@@ -95,7 +96,7 @@ void TileWorker::draw_triangles(uint32_t tile, const BinSet& set) {
     const BinRun& run = chunk->run_of(chunk->triangles[index]);
     if (&run != draw_.run) begin_draw(run);
     draw_triangle(*chunk, index);
-    if (i % kTrianglesPerLook == 0 && pass_->limits->expired.load(std::memory_order_relaxed)) break;
+    if (i % kTrianglesPerLook == 0 && pass_->limits->read_clock()) break;
   }
   end_draw();
   resolve();
@@ -303,6 +304,7 @@ void TileWorker::shade_in_order(uint32_t block, uint64_t pixels) {
   storage_.fetch_colors(uint64_t{1} << block);
   if (triangle_.shaded == nullptr) {
     const BinTriangle& triangle = triangle_.chunk->triangles[triangle_.index];
+    keep_pending_setups();
     triangle_.shaded = &setups_.make(*triangle_.chunk, triangle, triangle_.has_setup ? &setup_ : nullptr);
   }
   packer_.add(*triangle_.shaded, block, pixels);
@@ -328,6 +330,13 @@ const TriangleSetup& TileWorker::setup() {
     triangle_.has_setup = true;
   }
   return setup_;
+}
+
+// Called before a set-up is made: pending quads may not lose theirs to it.
+void TileWorker::keep_pending_setups() {
+  if (packer_.has_pending() && setups_.made() - first_pending_ < SetupRing::kMostWhilePending) return;
+  packer_.flush();
+  first_pending_ = setups_.made();
 }
 
 uint32_t TileWorker::number() {

@@ -78,6 +78,7 @@ class TileWorker {
   void shade_in_order(uint32_t block, uint64_t pixels);
   float* depths_of(uint32_t block);
   const TriangleSetup& setup();
+  void keep_pending_setups();
   uint32_t number();
   void store();
 
@@ -91,6 +92,7 @@ class TileWorker {
   TileDepth depth_;
   Visibility visibility_;
   SetupRing setups_;
+  uint32_t first_pending_ = 0;  // what setups_ had made when nothing was pending in packer_
   QuadPacker packer_;
 
   // The tile.
