@@ -1,4 +1,4 @@
-// The small headers: floating-point environment, results, and the choice of the SIMD target.
+// The small headers: floating-point environment, results, text, and the choice of the SIMD target.
 #include <gtest/gtest.h>
 
 #include <cfenv>
@@ -11,6 +11,7 @@
 #include "base/lane_math_runs.h"
 #include "base/result.h"
 #include "base/simd_dispatch.h"
+#include "base/text.h"
 
 namespace lapilli {
 namespace {
@@ -81,6 +82,17 @@ TEST(SimdDispatch, OffersTheBaselineFirstAndNamesTargets) {
     EXPECT_FALSE(set_simd_target(target));
     EXPECT_EQ(simd_target(), before);
   }
+}
+
+TEST(Text, AppendsTextOfAnyLength) {
+  std::string text = "a";
+  append_format(text, "%d%s", 1, "");
+  EXPECT_EQ(text, "a1");
+  const std::string longer(1000, 'x');
+  append_format(text, "%s!", longer.c_str());
+  EXPECT_EQ(text, "a1" + longer + "!");
+  append_format(text, "%s", "");
+  EXPECT_EQ(text.size(), 1003u);
 }
 
 }  // namespace

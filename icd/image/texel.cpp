@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/simd_targets.h"
+#include "image/tile.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "image/texel.cpp"
@@ -19,19 +20,12 @@ namespace HWY_NAMESPACE {
 namespace {
 
 constexpr int kQuads = kLanes / 4;
-constexpr uint64_t kOneLaneOfEachQuad = 0x1111111111111111;
 
 // The words of a batch's texels, word by word: word w of lane i is word[w][i].
 template <size_t kWords>
 struct BatchWords {
   alignas(64) uint32_t word[kWords][kLanes];
 };
-
-// Bit 4q is set if any lane of quad q is.
-HWY_API uint64_t live_quads(uint64_t lanes) {
-  const uint64_t pairs = lanes | lanes >> 1;
-  return (pairs | pairs >> 2) & kOneLaneOfEachQuad;
-}
 
 template <size_t kWords>
 void read_quads(const std::byte* plane, const QuadPlaces& places, uint64_t lanes, BatchWords<kWords>& words) {

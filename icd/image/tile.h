@@ -35,6 +35,12 @@ constexpr uint32_t texel_in_plane(uint32_t x, uint32_t y) {
   return block * kBlockTexels + quad * 4 + (y & 1) * 2 + (x & 1);
 }
 
+// Bit 4q of a block's or a batch's lanes, if any lane of quad q is in `lanes`.
+constexpr uint64_t live_quads(uint64_t lanes) {
+  const uint64_t pairs = lanes | lanes >> 1;
+  return (pairs | pairs >> 2) & 0x1111111111111111;
+}
+
 // `image` is pixel (0, 0) of a row-major level, `plane` has kTileTexels * texel_size bytes. Only the pixels of the area
 // are read and written, on both sides. texel_size: 1, 2, 4, 8 or 16 bytes.
 void load_tile(const std::byte* image, uint64_t row_pitch, uint32_t texel_size, const TileArea& area, std::byte* plane);

@@ -1,7 +1,9 @@
 // Sums of the draws' accounts, as text.
 #include "queue/frame_ledger.h"
 
-#include <cstdio>
+#include <cinttypes>
+
+#include "base/text.h"
 
 namespace lapilli {
 namespace {
@@ -18,23 +20,15 @@ void add(DrawLedger& sum, const DrawLedger& draw) {
   sum.lane_ops_run += draw.lane_ops_run;
 }
 
-template <class... Values>
-void append(std::string& text, const char* format, Values... values) {
-  char buffer[160];
-  std::snprintf(buffer, sizeof(buffer), format, values...);
-  text += buffer;
-}
-
 void append(std::string& text, const std::string& name, const DrawLedger& ledger) {
-  const auto number = [](uint64_t value) { return static_cast<unsigned long long>(value); };
-  append(text, "  %s: %llu vertices, %llu fragments, %llu lane-ops run\n", name.c_str(), number(ledger.vertices),
-         number(ledger.fragments), number(ledger.lane_ops_run));
+  append_format(text, "  %s: %" PRIu64 " vertices, %" PRIu64 " fragments, %" PRIu64 " lane-ops run\n", name.c_str(),
+                ledger.vertices, ledger.fragments, ledger.lane_ops_run);
   for (size_t i = 0; i < kRemovalCount; ++i) {
     const DrawLedger::Line& left_out = ledger.lines[i];
     if (left_out.count == 0 && left_out.lane_ops == 0) continue;
     const RemovalInfo& info = removal_info(static_cast<Removal>(i));
-    append(text, "    %-10s %14llu %-10s %18llu lane-ops\n", info.name, number(left_out.count), info.unit,
-           number(left_out.lane_ops));
+    append_format(text, "    %-10s %14" PRIu64 " %-10s %18" PRIu64 " lane-ops\n", info.name, left_out.count, info.unit,
+                  left_out.lane_ops);
   }
 }
 
@@ -66,7 +60,7 @@ DrawLedger* FrameLedger::add_draw(const GraphicsPrograms& programs) {
 
 std::string FrameLedger::text(uint64_t submission) const {
   std::string text;
-  append(text, "lapilli: ledger of submission %llu\n", static_cast<unsigned long long>(submission));
+  append_format(text, "lapilli: ledger of submission %" PRIu64 "\n", submission);
   DrawLedger all, rest;
   for (size_t i = 0; i < draws_.size(); ++i) {
     const DrawLedger ledger = draws_[i].total();

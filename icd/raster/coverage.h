@@ -2,6 +2,7 @@
 // (geometry/bins.h).
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 #include "geometry/bins.h"
@@ -20,6 +21,11 @@ constexpr uint32_t first_texel_of_block(uint32_t bit) {
   return (row_of_bit(bit) * kBlocksPerTile + column_of_bit(bit)) * kBlockTexels;
 }
 constexpr uint64_t kAllBits = ~uint64_t{0};
+// Calls body(bit) for each bit that is set, from the lowest on.
+template <class Body>
+void for_each_bit(uint64_t word, Body&& body) {
+  for (; word != 0; word &= word - 1) body(static_cast<uint32_t>(std::countr_zero(word)));
+}
 
 // Pixels of the block with this bit that lie in `rect`, which is in pixels from the tile's origin.
 uint64_t pixels_in_rect(const PixelRect& rect, uint32_t block);

@@ -14,12 +14,6 @@ constexpr uint32_t kBlockQuadColumns = kBlockSize / 2;
 // worth more than full lanes.
 constexpr uint64_t kQuadsWorthABatch = 12;
 
-// All lanes of the quads that have one in `lanes`.
-uint64_t quads_of(uint64_t lanes) {
-  const uint64_t pairs = lanes | lanes >> 1;
-  return (pairs | pairs >> 2) & 0x1111111111111111;
-}
-
 // Whether they are kQuadsWorthABatch at least; `quads` has one bit for each of the 16.
 bool fill_a_batch(uint64_t quads) {
   // Sums of four quads each, at most 4, in bytes and then all of them in the highest.
@@ -75,12 +69,9 @@ void QuadPacker::end_tile() {
 }
 
 void QuadPacker::add(const TriangleSetup& triangle, uint32_t block, uint64_t pixels) {
-  const uint64_t quads = quads_of(pixels);
+  const uint64_t quads = live_quads(pixels);
   if (fill_a_batch(quads)) return add_block(triangle, block, pixels);
-  for (uint64_t rest = quads; rest != 0; rest &= rest - 1) {
-    const uint32_t quad = static_cast<uint32_t>(std::countr_zero(rest)) / 4;
-    add_quad(triangle, block, quad, pixels >> (4 * quad) & 0xF);
-  }
+  for_each_bit(quads, [&](uint32_t lane) { add_quad(triangle, block, lane / 4, pixels >> lane & 0xF); });
 }
 
 void QuadPacker::add_quad(const TriangleSetup& triangle, uint32_t block, uint32_t quad, uint64_t pixels) {
@@ -140,7 +131,7 @@ void QuadPacker::run(FragmentBatch& batch, uint64_t lanes) {
     std::atomic_ref(*draw_->samples_passed).fetch_add(samples_passed_, std::memory_order_relaxed);
   }
   if (draw_->ledger != nullptr) {
-    const uint64_t executed = 4 * static_cast<uint64_t>(std::popcount(quads_of(lanes)));
+    const uint64_t executed = 4 * static_cast<uint64_t>(std::popcount(live_quads(lanes)));
     add_fragments_to_ledger(draw_->ledger, executed, executed * lane_cost(program));
   }
 }

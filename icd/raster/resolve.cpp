@@ -51,13 +51,11 @@ void TileWorker::resolve() {
 void TileWorker::collect_pending() {
   pending_.clear();
   storage_.overwrite_colors(visibility_.whole());
-  for (uint64_t rest = visibility_.whole(); rest != 0; rest &= rest - 1) {
-    const uint32_t block = static_cast<uint32_t>(std::countr_zero(rest));
+  for_each_bit(visibility_.whole(), [&](uint32_t block) {
     pending_.push_back({valid_[block], visibility_.whole_block(block), static_cast<uint8_t>(block), kManyQuads});
-  }
+  });
   const LaneNumberFunctions& functions = lane_number_functions();
-  for (uint64_t blocks = visibility_.mixed(); blocks != 0; blocks &= blocks - 1) {
-    const uint32_t block = static_cast<uint32_t>(std::countr_zero(blocks));
+  for_each_bit(visibility_.mixed(), [&](uint32_t block) {
     const uint32_t* const seen = visibility_.pixels(block);
     uint64_t rest = valid_[block] & ~functions.equal(seen, Visibility::kNobody);
     if (rest == valid_[block]) {
@@ -81,7 +79,7 @@ void TileWorker::collect_pending() {
       pending_.push_back({pixels, triangle, static_cast<uint8_t>(block), static_cast<uint8_t>(quad)});
       rest &= ~(pixels << (4 * quad));
     }
-  }
+  });
 }
 
 void TileWorker::shade(const DrawCall& draw, std::span<const Pending> pending) {

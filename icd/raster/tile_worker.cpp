@@ -24,12 +24,6 @@ constexpr size_t kVerticesAhead = 8;        // triangles
 constexpr size_t kTrianglesPerLook = 1024;  // at the time limit
 constexpr DepthRange kAnyDepth = {-std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity()};
 
-// Calls body(bit) for each bit that is set.
-template <class Body>
-void for_each_bit(uint64_t word, Body&& body) {
-  for (; word != 0; word &= word - 1) body(static_cast<uint32_t>(std::countr_zero(word)));
-}
-
 }  // namespace
 
 bool TileWorker::begin_pass(const TilePass& pass) {

@@ -3,9 +3,8 @@
 #include <atomic>
 #include <cassert>
 #include <cinttypes>
-#include <cstdarg>
-#include <cstdio>
 
+#include "base/text.h"
 #include "image/format.h"
 #include "image/sampling.h"
 #include "image/texel.h"
@@ -182,22 +181,13 @@ const Code& source(const Program& program) { return program.source; }
 
 namespace {
 
-__attribute__((format(printf, 2, 3))) void print(std::string& text, const char* format, ...) {
-  char line[64];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  text += line;
-}
-
 // r: registers, s: scalars. `at`: the op's place, for labels.
 void print_op(std::string& text, const Program& program, const Instruction& instruction, const Op& op, uint8_t form,
               uint32_t at) {
   const char file = form == kOnce ? 's' : 'r';
   if (instruction.results > 0) {
     if (form == kOnce || (form & kStore) != 0) {
-      print(text, "%c%u = ", file, unsigned{op.dst});
+      append_format(text, "%c%u = ", file, unsigned{op.dst});
     } else {
       text += "acc = ";
     }
@@ -210,12 +200,12 @@ void print_op(std::string& text, const Program& program, const Instruction& inst
     if (form != kOnce && form >> 1 == operand + 1) {
       text += " acc";
     } else {
-      print(text, " %c%u", file, unsigned{registers[operand]});
+      append_format(text, " %c%u", file, unsigned{registers[operand]});
     }
   }
   for (uint32_t k = 0; k < instruction.list_count; ++k) {
     const uint16_t reg = program.lists[op.a + k];
-    print(text, reg == kNoOperand ? " none" : " r%u", unsigned{reg});
+    append_format(text, reg == kNoOperand ? " none" : " r%u", unsigned{reg});
   }
   const ImmRoles roles = imm_roles(instruction.op);
   const uint32_t imms[] = {op.imm, op.imm2};
@@ -223,9 +213,9 @@ void print_op(std::string& text, const Program& program, const Instruction& inst
   for (int k = 0; k < 2; ++k) {
     if (role[k] == ImmRole::none) continue;
     if (role[k] == ImmRole::forward || role[k] == ImmRole::backward) {
-      print(text, " -> %" PRIu32, at + imms[k]);
+      append_format(text, " -> %" PRIu32, at + imms[k]);
     } else {
-      print(text, role[k] == ImmRole::mask ? " m%" PRIu32 : " #%" PRIu32, imms[k]);
+      append_format(text, role[k] == ImmRole::mask ? " m%" PRIu32 : " #%" PRIu32, imms[k]);
     }
   }
   text += '\n';
@@ -240,9 +230,9 @@ std::string disassemble(const Program& program) {
     print_op(text, program, program.source.once[i], program.once[i], kOnce, 0);
   }
   for (const Spread& each : program.uniform_lanes)
-    print(text, " once  r%u = s%u\n", unsigned{each.reg}, unsigned{each.scalar});
+    append_format(text, " once  r%u = s%u\n", unsigned{each.reg}, unsigned{each.scalar});
   for (uint32_t i = 0; i < program.ops.size(); ++i) {
-    print(text, "%5" PRIu32 "  ", i);
+    append_format(text, "%5" PRIu32 "  ", i);
     print_op(text, program, program.source.instructions[i], program.ops[i], program.forms[i], i);
   }
   return text;

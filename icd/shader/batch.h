@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "image/tile.h"
 #include "shader/ir.h"
 #include "shader/resources.h"
 
@@ -20,8 +21,7 @@ constexpr uint32_t kMaxColorAttachments = 8;
 
 // All lanes of the quads that have one in `lanes`.
 inline uint64_t whole_quads(uint64_t lanes) {
-  const uint64_t pairs = lanes | lanes >> 1;
-  return ((pairs | pairs >> 2) & 0x1111111111111111) * 15;
+  return live_quads(lanes) * 15;
 }
 
 struct VertexBinding {

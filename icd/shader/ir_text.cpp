@@ -1,33 +1,23 @@
 // Text of a Code, one instruction a line: %4 value, $4 variable, &4 uniform, 0x3f800000 constant, m2 mask register, L3
 // label.
 #include <cinttypes>
-#include <cstdarg>
-#include <cstdio>
 
+#include "base/text.h"
 #include "shader/ir.h"
 
 namespace lapilli {
 namespace {
 
-__attribute__((format(printf, 2, 3))) void print(std::string& text, const char* format, ...) {
-  char buffer[160];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(buffer, sizeof buffer, format, arguments);
-  va_end(arguments);
-  text += buffer;
-}
-
 void print_register(std::string& text, const Code& code, Reg reg) {
   if (reg == kNoReg) {
     text += "none";
   } else if (reg >= code.registers.size()) {
-    print(text, "?%" PRIu32, reg);
+    append_format(text, "?%" PRIu32, reg);
   } else if (code.registers[reg].kind == RegKind::constant) {
-    print(text, "0x%08" PRIx32, code.registers[reg].bits);
+    append_format(text, "0x%08" PRIx32, code.registers[reg].bits);
   } else {
     const RegKind kind = code.registers[reg].kind;
-    print(text, "%c%" PRIu32, kind == RegKind::variable ? '$' : kind == RegKind::uniform ? '&' : '%', reg);
+    append_format(text, "%c%" PRIu32, kind == RegKind::variable ? '$' : kind == RegKind::uniform ? '&' : '%', reg);
   }
 }
 
@@ -36,23 +26,23 @@ void print_imm(std::string& text, ImmRole role, uint32_t imm) {
     case ImmRole::none:
       return;
     case ImmRole::mask:
-      print(text, " m%" PRIu32, imm);
+      append_format(text, " m%" PRIu32, imm);
       return;
     case ImmRole::forward:
     case ImmRole::backward:
-      print(text, " L%" PRIu32, imm);
+      append_format(text, " L%" PRIu32, imm);
       return;
     case ImmRole::array:
-      print(text, " array%" PRIu32, imm);
+      append_format(text, " array%" PRIu32, imm);
       return;
     case ImmRole::resource:
-      print(text, " resource%" PRIu32, imm);
+      append_format(text, " resource%" PRIu32, imm);
       return;
     case ImmRole::bytes:
-      print(text, " +%" PRIu32, imm);
+      append_format(text, " +%" PRIu32, imm);
       return;
     default:
-      print(text, " #%" PRIu32, imm);
+      append_format(text, " #%" PRIu32, imm);
       return;
   }
 }
@@ -83,7 +73,7 @@ void print_instruction(std::string& text, const Code& code, const Instruction& i
     }
     text += ')';
   }
-  if (instruction.line != 0) print(text, "  // line %" PRIu32, instruction.line);
+  if (instruction.line != 0) append_format(text, "  // line %" PRIu32, instruction.line);
 }
 
 }  // namespace
@@ -97,10 +87,10 @@ std::string disassemble(const Code& code) {
   }
   for (uint32_t at = 0; at <= code.instructions.size(); ++at) {
     for (size_t label = 0; label < code.labels.size(); ++label) {
-      if (code.labels[label] == at) print(text, "L%zu:\n", label);
+      if (code.labels[label] == at) append_format(text, "L%zu:\n", label);
     }
     if (at == code.instructions.size()) break;
-    print(text, "%5" PRIu32 "  ", at);
+    append_format(text, "%5" PRIu32 "  ", at);
     print_instruction(text, code, code.instructions[at]);
     text += '\n';
   }
