@@ -10,23 +10,40 @@
 #include "base/spin.h"
 
 namespace lapilli {
+namespace {
+
+constexpr std::uint64_t kFirst = 1, kEnd = std::uint64_t{1} << 32;  // one of Worker::left's halves
+
+// Takes an index from the front or from the back; false if there is none.
+bool take(std::atomic<std::uint64_t>& left, bool front, std::size_t& index) {
+  std::uint64_t range = left.load(std::memory_order_relaxed);
+  std::uint64_t rest;
+  do {
+    if (static_cast<std::uint32_t>(range) == range >> 32) return false;
+    rest = front ? range + kFirst : range - kEnd;
+  } while (!left.compare_exchange_weak(range, rest, std::memory_order_relaxed));
+  index = front ? static_cast<std::uint32_t>(range) : rest >> 32;
+  return true;
+}
+
+}  // namespace
 
 ThreadPool::ThreadPool(unsigned workers, std::chrono::nanoseconds spin) : size_(workers), spin_(spin) {}
 
 void ThreadPool::start_threads() {
-  threads_.reset(new (std::nothrow) Thread[size_ - 1]);
-  if (threads_ == nullptr) return;
+  workers_.reset(new (std::nothrow) Worker[size_]);
+  if (workers_ == nullptr) return;
   // Threads inherit the mask: no signal of the application can arrive on one before it has blocked it.
   sigset_t all;
   sigset_t before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
-  for (unsigned worker = 1; worker < size_; ++worker) {
-    Thread& thread = threads_[worker - 1];
-    thread.pool = this;
-    thread.worker = worker;
-    if (pthread_create(&thread.handle, nullptr, &thread_main, &thread) != 0) break;
-    running_ = worker + 1;
+  for (unsigned number = 1; number < size_; ++number) {
+    Worker& worker = workers_[number];
+    worker.pool = this;
+    worker.number = number;
+    if (pthread_create(&worker.thread, nullptr, &thread_main, &worker) != 0) break;
+    running_ = number + 1;
   }
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
@@ -35,17 +52,17 @@ ThreadPool::~ThreadPool() {
   state_.fetch_or(kQuit, std::memory_order_release);
   state_.notify_all();
   for (unsigned worker = 1; worker < running_; ++worker) {
-    pthread_join(threads_[worker - 1].handle, nullptr);
+    pthread_join(workers_[worker].thread, nullptr);
   }
 }
 
 void* ThreadPool::thread_main(void* argument) {
-  const auto* thread = static_cast<const Thread*>(argument);
+  const auto* worker = static_cast<const Worker*>(argument);
 #if defined(__linux__)
   pthread_setname_np(pthread_self(), "lapilli-worker");
 #endif
   const FpEnvironment environment;
-  thread->pool->serve(thread->worker);
+  worker->pool->serve(worker->number);
   return nullptr;
 }
 
@@ -80,10 +97,11 @@ bool ThreadPool::join_open_loop() {
 }
 
 void ThreadPool::work(unsigned worker) {
-  for (;;) {
-    const std::size_t index = next_index_.fetch_add(1, std::memory_order_relaxed);
-    if (index >= count_) break;
-    call_(body_, index, worker);
+  std::size_t index;
+  while (take(workers_[worker].left, true, index)) call_(body_, index, worker);
+  for (unsigned i = 1; i < running_; ++i) {
+    std::atomic<std::uint64_t>& others = workers_[(worker + i) % running_].left;
+    while (take(others, false, index)) call_(body_, index, worker);
   }
   state_.fetch_and(~kOpen, std::memory_order_relaxed);
 }
@@ -103,18 +121,21 @@ void ThreadPool::run(std::size_t count, Call entry, void* body) {
   const FpEnvironment environment;
   [[maybe_unused]] const bool was_busy = busy_.exchange(true, std::memory_order_acquire);
   assert(!was_busy && "parallel_for within parallel_for, or from two threads");
-  if (size_ > 1 && count > 1 && threads_ == nullptr) start_threads();
+  assert(count < kEnd);
+  if (size_ > 1 && count > 1 && workers_ == nullptr) start_threads();
   if (running_ == 1 || count == 1) {
     for (std::size_t index = 0; index < count; ++index) entry(body, index, 0);
     busy_.store(false, std::memory_order_release);
     return;
   }
 
-  count_ = count;
+  for (std::uint64_t i = 0; i < running_; ++i) {
+    const std::uint64_t first = count * i / running_, end = count * (i + 1) / running_;
+    workers_[i].left.store(first | end << 32, std::memory_order_relaxed);
+  }
   call_ = entry;
   body_ = body;
   const std::uint32_t number = ++loop_number_;
-  next_index_.store(0, std::memory_order_relaxed);
   state_.store(kOpen | 1, std::memory_order_release);
   state_.notify_all();
 

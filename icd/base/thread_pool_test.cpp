@@ -63,6 +63,25 @@ TEST(ThreadPool, AllWorkersTakePart) {
   EXPECT_EQ(workers_seen.load(), 7u);
 }
 
+// Each worker stays at its first index but the last, which does all the rest.
+TEST(ThreadPool, BeginWithPartsOfTheirOwnAndTakeFromTheEndOfOthers) {
+  ThreadPool pool(3);
+  std::atomic<unsigned> inside{0};
+  std::array<std::vector<std::size_t>, 3> taken;
+  std::atomic<unsigned> done{0};
+  pool.parallel_for(9, [&](std::size_t index, unsigned worker) {
+    taken[worker].push_back(index);
+    inside.fetch_add(1);
+    while (inside.load() < 3) std::this_thread::yield();
+    // The others stay at their first index until worker 2 has done everything else.
+    if (worker == 2) done.fetch_add(1);
+    while (worker != 2 && done.load() < 7) std::this_thread::yield();
+  });
+  EXPECT_EQ(taken[0], (std::vector<std::size_t>{0}));
+  EXPECT_EQ(taken[1], (std::vector<std::size_t>{3}));
+  EXPECT_EQ(taken[2], (std::vector<std::size_t>{6, 7, 8, 2, 1, 5, 4}));
+}
+
 TEST(ThreadPool, WorkersBlockAllSignals) {
   ThreadPool pool(2);
   std::atomic<unsigned> inside{0};
