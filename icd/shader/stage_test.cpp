@@ -3,6 +3,7 @@
 
 #include "base/removals.h"
 #include "shader/spirv/test/run_shader.h"
+#include "shaders/counting.frag.h"
 #include "shaders/interface.frag.h"
 #include "shaders/interface.vert.h"
 #include "shaders/texture.frag.h"
@@ -227,6 +228,20 @@ TEST_F(Stage, DeferrableIfNothingButTheLastColourCanBeSeen) {
   formats.assign(3, VK_FORMAT_UNDEFINED);
   make();
   EXPECT_FALSE(code.deferrable || code.writes_color);
+}
+
+// Each fragment's store has to happen, hidden later or not; the depth test comes after it.
+TEST_F(Stage, StoresAreNotDeferred) {
+  slots.push_back({1, 4, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_ALL, 40, 1, -1});
+  formats = {VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_UNDEFINED, VK_FORMAT_UNDEFINED};
+  make(shaders::kCountingFrag);
+  EXPECT_TRUE(code.writes_color);
+  EXPECT_FALSE(code.deferrable);
+  state.depth_test = state.depth_write = true;
+  state.depth_compare = VK_COMPARE_OP_LESS;
+  make(shaders::kCountingFrag);
+  EXPECT_FALSE(code.deferrable || code.early_depth);
+  EXPECT_GT(place(code.fragment, Opcode::depth_test), place(code.fragment, Opcode::store_buffer));
 }
 
 TEST_F(Stage, WithoutFragmentShader) {
