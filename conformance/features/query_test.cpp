@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "features/drawing_fixture.h"
+#include "shaders/discard_checker.frag.h"
+#include "shaders/early_discard.frag.h"
 
 namespace lapilli::conformance {
 namespace {
@@ -55,6 +57,49 @@ TEST(Queries, OcclusionTellsWhatPassedTheDepthTest) {
   if (!subject_is_lapilli()) return;
   EXPECT_EQ(results[0], 60u * 50);
   EXPECT_EQ(results[2], 20u * 30);
+}
+
+// Half of the fragments are discarded. With EarlyFragmentTests that is after the samples were counted (Fragment
+// Operations: "Early Fragment Test Mode").
+TEST(Queries, EarlyTestsCountWhatIsDiscarded) {
+  const Canvas canvas(subject(), {.width = 32, .height = 16});
+  const samples::PipelineLayout layout = create_layout(subject());
+  const QueryPool pool = make_pool(VK_QUERY_TYPE_OCCLUSION, 2);
+  std::vector<ColoredVertex> vertices;
+  add_rectangle(vertices, canvas, {{0, 0}, {32, 16}}, 0, {1, 0, 0, 1});
+  const samples::Buffer buffer(subject(), std::span<const ColoredVertex>(vertices), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+  PipelineState state;
+  state.vertex_shader = shaders::kPositionColorVert;
+  state.layout = layout.get();
+  state.render_pass = canvas.render_pass();
+  state.fragment_shader = shaders::kDiscardCheckerFrag;
+  const samples::Pipeline late = create_pipeline(subject(), state);
+  state.fragment_shader = shaders::kEarlyDiscardFrag;
+  const samples::Pipeline early = create_pipeline(subject(), state);
+  const VkPipeline pipelines[] = {late.get(), early.get()};
+  VkCommandBuffer commands = subject().begin_commands();
+  vkCmdResetQueryPool(commands, pool.get(), 0, 2);
+  canvas.begin(commands, {});
+  const VkBuffer vertex_buffer = buffer.get();
+  const VkDeviceSize offset = 0;
+  vkCmdBindVertexBuffers(commands, 0, 1, &vertex_buffer, &offset);
+  for (uint32_t i = 0; i < 2; ++i) {
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines[i]);
+    vkCmdBeginQuery(commands, pool.get(), i, 0);
+    vkCmdDraw(commands, 6, 1, 0, 0);
+    vkCmdEndQuery(commands, pool.get(), i);
+  }
+  Canvas::end(commands);
+  subject().submit_and_wait(commands);
+  uint64_t results[2] = {};
+  ASSERT_EQ(vkGetQueryPoolResults(subject().device(), pool.get(), 0, 2, sizeof(results), results, 8,
+                                  VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+            VK_SUCCESS);
+  EXPECT_GT(results[0], 0u);
+  EXPECT_GT(results[1], 0u);
+  if (!subject_is_lapilli()) return;
+  EXPECT_EQ(results[0], 32u * 16 / 2);
+  EXPECT_EQ(results[1], 32u * 16);
 }
 
 TEST(Queries, ResetMakesUnavailable) {

@@ -222,7 +222,7 @@ void plan_shading(FragmentPlan& plan, const LoweredShader& shader, const Graphic
                     !reads_helpers && plan.early_depth == plan.depth_test;
 }
 
-// Behind the shader: late depth, the count of samples that passed, colours.
+// Behind the shader: late depth, the count of samples that passed (unless the shader asks for early tests), colours.
 Result<void> emit_fragment_epilogue(LoweredShader& shader, const GraphicsState& state, const FragmentPlan& plan,
                                     Reg depth_reg) {
   Code& code = shader.code;
@@ -234,7 +234,7 @@ Result<void> emit_fragment_epilogue(LoweredShader& shader, const GraphicsState& 
     }
     emit_depth_test(code, plan, z, shader.end_label);
   }
-  code.append(Opcode::count_samples);
+  if (!shader.early_fragment_tests) code.append(Opcode::count_samples);
   for (uint32_t i = 0; i < state.color_formats.size() && i < state.blend.size(); ++i) {
     if (state.color_formats[i] == VK_FORMAT_UNDEFINED) continue;
     std::array<Reg, 4> color{code.constant(0), code.constant(0), code.constant(0), code.constant_f(1.0f)};
@@ -269,10 +269,11 @@ Varyings link_varyings(LoweredShader& shader, const std::vector<bool>& live, Rem
   return varyings;
 }
 
-// Before the shader: interpolation. An early depth test is raster's work.
+// Before the shader: the count of early tests, interpolation. An early depth test is raster's work.
 void emit_fragment_prologue(LoweredShader& shader, Reg depth_reg, const Varyings& varyings,
                             const std::vector<bool>& live) {
   Code& code = shader.code;
+  if (shader.early_fragment_tests) code.append(Opcode::count_samples);
   const InterfaceBuiltIn* position = find_built_in(shader.built_in_inputs, spv::BuiltIn::FragCoord);
   const bool reads_z = position != nullptr && live[position->regs[2]];
   const bool reads_w = position != nullptr && live[position->regs[3]];
