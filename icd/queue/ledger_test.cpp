@@ -119,6 +119,17 @@ TEST_F(Ledger, OpsThatRunOncePerDraw) {
   EXPECT_EQ(count(text, "all 2 draws", "uniforms"), 8u) << text;
 }
 
+// A multiplication makes the alpha that the mask leaves out.
+TEST_F(Ledger, OutputsThatAreMasked) {
+  const auto record = [&](CommandBuffer& commands) { scene->draw(commands, -1, -1, 1, 1, 0.5f, 0); };
+  EXPECT_EQ(count(draw(scene->add_pipeline(), record), "draw 0", "outputs"), 0u);
+  const std::string text = draw(scene->add_pipeline(VK_CULL_MODE_NONE, 0x7), record);
+  const size_t fragments = text.find("vertices, ") + 10;
+  ASSERT_LT(fragments, text.size()) << text;
+  EXPECT_EQ(count(text, "draw 0", "outputs"), std::stoull(text.substr(fragments))) << text;
+  EXPECT_GE(count(text, "draw 0", "outputs"), 128u * 64) << text;
+}
+
 TEST_F(Ledger, NothingIsPrintedWhereNothingIsDrawn) {
   EXPECT_EQ(draw(scene->add_pipeline(), [](CommandBuffer&) {}), "");
 }

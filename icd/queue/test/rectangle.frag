@@ -2,4 +2,4 @@
 layout(location = 0) in vec4 color;
 layout(location = 0) out vec4 target;
 
-void main() { target = color; }
+void main() { target = vec4(color.rgb, color.a * color.a); }
