@@ -2,6 +2,19 @@
 #include "object/image.h"
 
 namespace lapilli {
+namespace {
+
+constexpr uint64_t kMostPopulated = uint64_t{64} << 20;  // bytes of an image
+
+// A colour attachment that is kept will be written in full: its first frame need not wait for the kernel, which clears
+// 5 to 10 GB a second.
+bool is_worth_populating(const Image& image) {
+  constexpr VkImageUsageFlags kAsked = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT;
+  return (image.usage & kAsked) == VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT && image.layout.extent.samples == 1 &&
+         image.layout.size <= kMostPopulated;
+}
+
+}  // namespace
 
 VkResult create_image(DeviceContext& device, const VkImageCreateInfo& info, const VkAllocationCallbacks* callbacks,
                       VkImage* handle) {
@@ -34,6 +47,7 @@ VkResult bind_memory(Image& image, DeviceMemory& memory, uint64_t offset) {
     return VK_ERROR_OUT_OF_DEVICE_MEMORY;
   }
   image.data = memory.data + offset;
+  if (is_worth_populating(image)) populate(memory, offset, image.layout.size);
   return VK_SUCCESS;
 }
 

@@ -79,6 +79,14 @@ VkResult allocate_memory(DeviceContext& device, const VkMemoryAllocateInfo& info
   return publish(std::move(memory), handle);
 }
 
+// Linux 5.14; older kernels refuse, and the pages come with the first touch.
+void populate(const DeviceMemory& memory, uint64_t offset, uint64_t size) {
+  constexpr int kPopulateWrite = 23;  // MADV_POPULATE_WRITE
+  constexpr uint64_t kPage = 4096;
+  const uint64_t first = offset / kPage * kPage;
+  madvise(memory.data + first, offset + size - first, kPopulateWrite);
+}
+
 VkResult map_memory(DeviceMemory& memory, uint64_t offset, uint64_t size, void** data) {
   if (offset >= memory.size || (size != VK_WHOLE_SIZE && size > memory.size - offset)) {
     log_error("vkMapMemory: the range does not lie in the memory");

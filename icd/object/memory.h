@@ -17,6 +17,8 @@ struct DeviceMemory : Handle<DeviceMemory, VkDeviceMemory> {
 
 VkResult allocate_memory(DeviceContext& device, const VkMemoryAllocateInfo& info,
                          const VkAllocationCallbacks* callbacks, VkDeviceMemory* handle);
+// Has the kernel give these bytes their pages now, which it does when they are first touched otherwise.
+void populate(const DeviceMemory& memory, uint64_t offset, uint64_t size);
 VkResult map_memory(DeviceMemory& memory, uint64_t offset, uint64_t size, void** data);
 
 }  // namespace lapilli

@@ -39,6 +39,17 @@ TEST_F(Allocating, IsZeroFromFirstToLastByteAndGoesBack) {
   }
 }
 
+// Pages that are there read as 0 and those around them stay as they are.
+TEST_F(Allocating, PopulatedBytesAreZeroToo) {
+  const uint64_t mb = 1 << 20;
+  const ObjectPtr<DeviceMemory> memory = allocate(5 * mb);
+  memory->data[100] = memory->data[3 * mb] = std::byte{7};
+  populate(*memory, 256, 3 * mb);
+  EXPECT_EQ(memory->data[100], std::byte{7});
+  EXPECT_EQ(memory->data[3 * mb], std::byte{7});
+  for (uint64_t at = 4096; at < 3 * mb; at += 4096) ASSERT_EQ(memory->data[at], std::byte{0});
+}
+
 TEST_F(Allocating, MoreThanTheHeapIsRefused) {
   const uint64_t heap = context.instance->physical_device.heap_size;
   for (const uint64_t size : {heap + 1, UINT64_MAX, UINT64_MAX - (1 << 20), uint64_t{0}}) {
