@@ -20,17 +20,20 @@ bool VertexStage::begin(const DrawCall& draw, ExecutionLimits& limits) {
   vertex_.clear();
   instance_.clear();
   instance_first_ = 0;
-  if (last_slot_.empty()) {
-    last_slot_.assign(kTableSize, 0);
-    vertex_.resize(kMostVertices);
-    std::fill_n(vertex_.data(), kMostVertices, 0u);
-    vertex_.clear();
-  }
   return execution_.prepare(*draw.state->programs->vertex, *draw.resources, &limits);
+}
+
+void VertexStage::make_table() {
+  last_slot_.assign(kTableSize, 0);
+  const size_t count = vertex_.size();
+  vertex_.resize(kMostVertices);
+  std::fill_n(vertex_.data() + count, kMostVertices - count, 0u);
+  vertex_.resize(count);
 }
 
 // Without branches on whether a vertex is new, which nobody could predict.
 uint32_t VertexStage::add(uint32_t instance, std::span<uint32_t> vertices) {
+  if (last_slot_.empty()) make_table();
   const uint32_t before = static_cast<uint32_t>(vertex_.size());
   if (before == 0 || instance_[before - 1] != instance) instance_first_ = before;
   const uint32_t first = instance_first_;

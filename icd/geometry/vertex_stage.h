@@ -31,6 +31,8 @@ class VertexStage {
   static constexpr uint32_t kMostVertices = 1u << 14;
 
  private:
+  void make_table();
+
   struct alignas(64) Line {
     float value[16];
   };
@@ -38,10 +40,10 @@ class VertexStage {
   const DrawCall* draw_ = nullptr;
   Execution execution_;
   uint32_t first_ = 0;  // in the list, of the vertices since begin()
-  // Of those: vertex and instance index. There is always room for kMostVertices.
+  // Of those: vertex and instance index. With a table there is room for kMostVertices.
   BinArray<uint32_t> vertex_, instance_;
   // By the low bits of a vertex index: the slot (place in vertex_) that it may have. What vertex_ says of it decides,
-  // so that nothing has to be cleared.
+  // so that nothing has to be cleared. Made with the first indexed draw.
   std::vector<uint16_t> last_slot_;
   uint32_t instance_first_ = 0;       // slot from which on all have the present instance
   BinArray<ClipPosition> positions_;  // of the list

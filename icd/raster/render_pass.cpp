@@ -24,13 +24,13 @@ PixelRect draw_area(const PassTarget& target) {
 }  // namespace
 
 struct Renderer::State {
-  explicit State(ThreadPool& p) : pool(p), front_end(p), workers(p.size()) {}
+  explicit State(ThreadPool& p) : pool(p), front_end(p), workers(new TileWorker[p.size()]) {}
 
   void begin_pass(const PassTarget& target, std::span<const DrawCall> draws, ExecutionLimits& limits);
 
   ThreadPool& pool;
   FrontEnd front_end;
-  std::vector<TileWorker> workers;
+  std::unique_ptr<TileWorker[]> workers;  // as many as the pool has; large, and not to be cleared
 
   // The pass at hand.
   std::vector<PassAttachment> attachments;
@@ -62,7 +62,7 @@ VkResult Renderer::render(const PassTarget& target, std::span<const DrawCall> dr
   State& state = *state_;
   state.begin_pass(target, draws, limits);
   if (state.pass.area.empty()) return VK_SUCCESS;
-  for (TileWorker& worker : state.workers) {
+  for (TileWorker& worker : std::span(state.workers.get(), state.pool.size())) {
     if (!worker.begin_pass(state.pass)) return VK_ERROR_OUT_OF_HOST_MEMORY;
   }
 

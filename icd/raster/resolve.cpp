@@ -55,14 +55,11 @@ void TileWorker::collect_pending() {
     pending_.push_back({valid_[block], visibility_.whole_block(block), static_cast<uint8_t>(block), kManyQuads});
   });
   const LaneNumberFunctions& functions = lane_number_functions();
+  uint64_t partly = 0;  // blocks of which something else is seen too
   for_each_bit(visibility_.mixed(), [&](uint32_t block) {
     const uint32_t* const seen = visibility_.pixels(block);
     uint64_t rest = valid_[block] & ~functions.equal(seen, Visibility::kNobody);
-    if (rest == valid_[block]) {
-      storage_.overwrite_colors(uint64_t{1} << block);
-    } else {
-      storage_.fetch_colors(uint64_t{1} << block);
-    }
+    if (rest != valid_[block]) partly |= uint64_t{1} << block;
     for (int part = 0; part < kMostPartsOfABlock && rest != 0; ++part) {
       const uint32_t triangle = seen[std::countr_zero(rest)];
       const uint64_t pixels = functions.equal(seen, triangle) & rest;
@@ -80,6 +77,8 @@ void TileWorker::collect_pending() {
       rest &= ~(pixels << (4 * quad));
     }
   });
+  storage_.overwrite_colors(visibility_.mixed() & ~partly);
+  storage_.fetch_colors(partly);
 }
 
 void TileWorker::shade(const DrawCall& draw, std::span<const Pending> pending) {

@@ -68,7 +68,11 @@ bool TileWorker::draw_tile(uint32_t tile, const BinSet& set, bool first_set) {
 }
 
 void TileWorker::draw_triangles(uint32_t tile, const BinSet& set) {
-  for (uint32_t block = 0; block < 64; ++block) valid_[block] = pixels_in_rect(tile_rect_, block);
+  if (tile_rect_ == PixelRect{0, 0, kTile, kTile}) {
+    std::fill(std::begin(valid_), std::end(valid_), kAllBits);
+  } else {
+    for (uint32_t block = 0; block < 64; ++block) valid_[block] = pixels_in_rect(tile_rect_, block);
+  }
   visibility_.begin_tile();
   setups_.begin_tile();
   first_pending_ = 0;
