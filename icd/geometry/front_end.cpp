@@ -24,6 +24,8 @@ constexpr uint32_t kMaxListEntries = 1u << 21;
 // Planned at once.
 constexpr size_t kMostPlans = 1024;
 constexpr size_t kMostItems = 1u << 16;
+// Vertices of a draw from which on the clock is read for each run.
+constexpr uint32_t kWorthALook = 1u << 16;
 
 bool has_effect(const DrawCall& draw) {
   const GraphicsPrograms& programs = *draw.state->programs;
@@ -49,8 +51,6 @@ uint64_t count_triangles(const DrawCall& draw) {
   }
   return sum * draw.instance_count;
 }
-
-constexpr uint32_t kWorthALook = 1u << 16;  // vertices of a draw: the clock is read for each run
 
 }  // namespace
 

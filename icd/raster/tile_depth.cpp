@@ -17,6 +17,7 @@ void TileDepth::begin_cleared(float* plane, float depth) {
   std::fill_n(ranges_.max, 64, depth);
   range_ = {depth, depth};
   range_is_old_ = false;
+  std::fill_n(included_, 64, uint8_t{0});
 }
 
 void TileDepth::begin_loaded(float* plane, const uint64_t (&valid)[64]) {
@@ -38,6 +39,7 @@ void TileDepth::begin_loaded(float* plane, const uint64_t (&valid)[64]) {
     ranges_.max[block] = range.max;
   }
   range_is_old_ = true;
+  std::fill_n(included_, 64, uint8_t{0});
 }
 
 float* TileDepth::fill(uint32_t block) {

@@ -63,7 +63,7 @@ class TileDepth {
   uint64_t changed_ = 0;
   BlockRanges ranges_;
   alignas(64) uint32_t owner_[64];
-  uint8_t included_[64] = {};  // since the range was exact
+  uint8_t included_[64];  // since the range was exact
 };
 
 }  // namespace lapilli
