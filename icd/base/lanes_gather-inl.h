@@ -79,6 +79,40 @@ HWY_API void gather_words(const void* base, U byte_offsets, U* words) {
 
 #endif
 
+// table[index] of 16 floats or doubles, 64-byte aligned; every index is below 16.
+HWY_API F lookup16(const float* table, U index) {
+#if HWY_TARGET == HWY_AVX3
+  return F{_mm512_permutexvar_ps(index.raw, _mm512_load_ps(table))};
+#elif HWY_TARGET == HWY_AVX2
+  const __m256 low = _mm256_permutevar8x32_ps(_mm256_load_ps(table), index.raw);
+  const __m256 high = _mm256_permutevar8x32_ps(_mm256_load_ps(table + 8), index.raw);
+  return F{_mm256_blendv_ps(low, high, _mm256_castsi256_ps(_mm256_slli_epi32(index.raw, 28)))};
+#else
+  alignas(64) uint32_t lanes[kVectorLanes];
+  store(index, lanes);
+  for (uint32_t& lane : lanes) __builtin_memcpy(&lane, table + lane, 4);
+  return load<F>(lanes);
+#endif
+}
+HWY_API D lookup16(const double* table, U index) {
+#if HWY_TARGET == HWY_AVX3
+  const __m512d first = _mm512_load_pd(table), second = _mm512_load_pd(table + 8);
+  const __m512i low = _mm512_cvtepu32_epi64(_mm512_castsi512_si256(index.raw));
+  const __m512i high = _mm512_cvtepu32_epi64(_mm512_extracti64x4_epi64(index.raw, 1));
+  return {hn::Vec<DTag>{_mm512_permutex2var_pd(first, low, second)},
+          hn::Vec<DTag>{_mm512_permutex2var_pd(first, high, second)}};
+#elif HWY_TARGET == HWY_AVX2
+  return {hn::Vec<DTag>{_mm256_i32gather_pd(table, _mm256_castsi256_si128(index.raw), 8)},
+          hn::Vec<DTag>{_mm256_i32gather_pd(table, _mm256_extracti128_si256(index.raw, 1), 8)}};
+#else
+  alignas(64) uint32_t lanes[kVectorLanes];
+  alignas(64) double values[kVectorLanes];
+  store(index, lanes);
+  for (int lane = 0; lane < kVectorLanes; ++lane) values[lane] = table[lanes[lane]];
+  return load_d(values);
+#endif
+}
+
 // The 16 bytes at each of the pointers, one for each four lanes.
 HWY_API U load_quads(const void* const* quads) {
 #if HWY_TARGET == HWY_AVX3

@@ -35,10 +35,14 @@ void make_scene(ScenePass& pass, uint32_t seed) {
     draw.plan.writes_color = pick(8) != 0;
     draw.accumulate = pick(4) == 0;
     draw.plan.deferrable = draw.plan.writes_color && !draw.accumulate && draw.plan.early_depth == draw.plan.depth_test;
-    const uint32_t triangles = 1 + pick(40);
+    draw.plan.pixels_alone = draw.plan.deferrable && pick(3) != 0;
+    const bool swarm = pick(3) == 0;  // many small ones in few blocks
+    const uint32_t triangles = swarm ? 400 : 1 + pick(40);
+    const float middle_x = uniform(-1, 1), middle_y = uniform(-1, 1);
     for (uint32_t i = 0; i < triangles; ++i) {
-      const float size = pick(3) == 0 ? 3.0f : pick(2) == 0 ? 0.3f : 0.03f;
-      const float x = uniform(-1, 1), y = uniform(-1, 1);
+      const float size = swarm ? 0.04f : pick(3) == 0 ? 3.0f : pick(2) == 0 ? 0.3f : 0.03f;
+      const float x = swarm ? middle_x + uniform(-0.15f, 0.15f) : uniform(-1, 1);
+      const float y = swarm ? middle_y + uniform(-0.15f, 0.15f) : uniform(-1, 1);
       const float level = static_cast<float>(pick(5)) * 0.25f;
       const bool flat = pick(2) == 0;
       for (int v = 0; v < 3; ++v) {

@@ -90,8 +90,20 @@ void QuadPacker::add_quad(const TriangleSetup& triangle, uint32_t block, uint32_
 }
 
 void QuadPacker::add_block(const TriangleSetup& triangle, uint32_t block, uint64_t pixels) {
-  if (block_last_[block] == batch_number_) flush();
   if (block_batch_.triangle[0] != &triangle) std::fill_n(block_batch_.triangle, kBatchQuads, &triangle);
+  run_block(block, pixels);
+}
+
+void QuadPacker::add_lanes(const LaneTriangles& triangles, uint32_t block, uint64_t pixels) {
+  block_batch_.one_triangle = false;
+  block_batch_.lane_triangles = &triangles;
+  run_block(block, pixels);
+  block_batch_.one_triangle = true;
+  block_batch_.lane_triangles = nullptr;
+}
+
+void QuadPacker::run_block(uint32_t block, uint64_t pixels) {
+  if (block_last_[block] == batch_number_) flush();
   number_quads(block_batch_.x, tile_x_ + column_of_bit(block) * kBlockSize, kQuadX);
   number_quads(block_batch_.y, tile_y_ + row_of_bit(block) * kBlockSize, kQuadY);
   number_quads(block_batch_.quad_in_tile, first_quad_of_block(block), kQuadNumber);
@@ -131,7 +143,8 @@ void QuadPacker::run(FragmentBatch& batch, uint64_t lanes) {
     std::atomic_ref(*draw_->samples_passed).fetch_add(samples_passed_, std::memory_order_relaxed);
   }
   if (draw_->ledger != nullptr) {
-    const uint64_t executed = 4 * static_cast<uint64_t>(std::popcount(live_quads(lanes)));
+    const bool helpers = batch.lane_triangles == nullptr;
+    const uint64_t executed = static_cast<uint64_t>(std::popcount(helpers ? whole_quads(lanes) : lanes));
     add_fragments_to_ledger(draw_->ledger, executed, executed * lane_cost(program));
   }
 }

@@ -22,6 +22,8 @@ class QuadPacker {
   void add(const TriangleSetup& triangle, uint32_t block, uint64_t pixels);
   // Adds the pixels (not 0) of one quad of a block, as bits 0 to 3.
   void add_quad(const TriangleSetup& triangle, uint32_t block, uint32_t quad, uint64_t pixels);
+  // Adds pixels of a block, each of its own triangle, and runs them.
+  void add_lanes(const LaneTriangles& triangles, uint32_t block, uint64_t pixels);
   // Runs the pending quads.
   void flush();
   bool has_pending() const { return count_ != 0; }
@@ -31,6 +33,7 @@ class QuadPacker {
 
  private:
   void add_block(const TriangleSetup& triangle, uint32_t block, uint64_t pixels);
+  void run_block(uint32_t block, uint64_t pixels);
   void run(FragmentBatch& batch, uint64_t lanes);
 
   ExecutionLimits* limits_ = nullptr;

@@ -15,7 +15,7 @@ FragmentPlan plan(bool depth, bool blend) {
   plan.depth_test = plan.early_depth = plan.depth_write = depth;
   plan.depth_compare = depth ? VK_COMPARE_OP_LESS : VK_COMPARE_OP_ALWAYS;
   plan.writes_color = true;
-  plan.deferrable = !blend;
+  plan.deferrable = plan.pixels_alone = !blend;
   return plan;
 }
 

@@ -9,6 +9,8 @@ namespace {
 
 // A block with more triangles is taken apart quad by quad.
 constexpr int kMostPartsOfABlock = 4;
+// From so many quads of a draw on, a block with several triangles is a batch of its own where the program lets it be.
+constexpr int kQuadsWorthABatch = 6;
 
 constexpr size_t kVaryingsAhead = 8;  // triangles
 void prefetch_varyings(const TileTriangle& triangle) {
@@ -31,7 +33,7 @@ void TileWorker::resolve() {
     first_draw = std::min(first_draw, draw_of(each));
     last_draw = std::max(last_draw, draw_of(each));
   }
-  if (first_draw == last_draw) return shade(*deferred_draws_[first_draw], pending_);
+  if (first_draw == last_draw) return shade(*deferred_draws_[first_draw].call, pending_);
 
   // Counted, then scattered. The scatter moves each draw's start to its end.
   draw_end_.assign(last_draw - first_draw + 2, 0);
@@ -42,7 +44,7 @@ void TileWorker::resolve() {
   uint32_t begin = 0;
   for (uint32_t draw = first_draw; draw <= last_draw; ++draw) {
     const uint32_t end = draw_end_[draw - first_draw];
-    if (begin != end) shade(*deferred_draws_[draw], std::span(sorted_).subspan(begin, end - begin));
+    if (begin != end) shade(*deferred_draws_[draw].call, std::span(sorted_).subspan(begin, end - begin));
     begin = end;
   }
 }
@@ -60,25 +62,48 @@ void TileWorker::collect_pending() {
     const uint32_t* const seen = visibility_.pixels(block);
     uint64_t rest = valid_[block] & ~functions.equal(seen, Visibility::kNobody);
     if (rest != valid_[block]) partly |= uint64_t{1} << block;
-    for (int part = 0; part < kMostPartsOfABlock && rest != 0; ++part) {
-      const uint32_t triangle = seen[std::countr_zero(rest)];
-      const uint64_t pixels = functions.equal(seen, triangle) & rest;
-      pending_.push_back({pixels, triangle, static_cast<uint8_t>(block), kManyQuads});
-      rest &= ~pixels;
-    }
     while (rest != 0) {
-      const uint32_t quad = static_cast<uint32_t>(std::countr_zero(rest)) / 4;
-      const uint32_t* const lanes = seen + 4 * quad;
-      const uint32_t triangle = seen[std::countr_zero(rest)];
-      uint64_t pixels = 0;
-      for (uint32_t i = 0; i < 4; ++i) pixels |= uint64_t{lanes[i] == triangle} << i;
-      pixels &= rest >> (4 * quad);
-      pending_.push_back({pixels, triangle, static_cast<uint8_t>(block), static_cast<uint8_t>(quad)});
-      rest &= ~(pixels << (4 * quad));
+      const uint32_t draw = visibility_.triangle(seen[std::countr_zero(rest)]).draw;
+      const bool last = draw + 1 == deferred_draws_.size();
+      const uint32_t end = last ? visibility_.next_number() : deferred_draws_[draw + 1].first;
+      const uint64_t pixels = functions.between(seen, deferred_draws_[draw].first, end) & rest;
+      if (!collect_lanes(block, pixels)) collect_quads(block, pixels);
+      rest &= ~pixels;
     }
   });
   storage_.overwrite_colors(visibility_.mixed() & ~partly);
   storage_.fetch_colors(partly);
+}
+
+// Pixels of one draw in a block: whether they are worth a batch of the block, in which each has a triangle of its own.
+bool TileWorker::collect_lanes(uint32_t block, uint64_t pixels) {
+  const uint32_t* const seen = visibility_.pixels(block);
+  const uint32_t first = seen[std::countr_zero(pixels)];
+  if (!deferred_draws_[visibility_.triangle(first).draw].call->state->programs->pixels_alone) return false;
+  if (std::popcount(live_quads(pixels)) < kQuadsWorthABatch) return false;
+  if ((lane_number_functions().equal(seen, first) & pixels) == pixels) return false;
+  pending_.push_back({pixels, first, static_cast<uint8_t>(block), kManyTriangles});
+  return true;
+}
+
+void TileWorker::collect_quads(uint32_t block, uint64_t rest) {
+  const uint32_t* const seen = visibility_.pixels(block);
+  for (int part = 0; part < kMostPartsOfABlock && rest != 0; ++part) {
+    const uint32_t triangle = seen[std::countr_zero(rest)];
+    const uint64_t pixels = lane_number_functions().equal(seen, triangle) & rest;
+    pending_.push_back({pixels, triangle, static_cast<uint8_t>(block), kManyQuads});
+    rest &= ~pixels;
+  }
+  while (rest != 0) {
+    const uint32_t quad = static_cast<uint32_t>(std::countr_zero(rest)) / 4;
+    const uint32_t* const lanes = seen + 4 * quad;
+    const uint32_t triangle = seen[std::countr_zero(rest)];
+    uint64_t pixels = 0;
+    for (uint32_t i = 0; i < 4; ++i) pixels |= uint64_t{lanes[i] == triangle} << i;
+    pixels &= rest >> (4 * quad);
+    pending_.push_back({pixels, triangle, static_cast<uint8_t>(block), static_cast<uint8_t>(quad)});
+    rest &= ~(pixels << (4 * quad));
+  }
 }
 
 void TileWorker::shade(const DrawCall& draw, std::span<const Pending> pending) {
@@ -87,6 +112,13 @@ void TileWorker::shade(const DrawCall& draw, std::span<const Pending> pending) {
     if (i + kVaryingsAhead < pending.size())
       prefetch_varyings(visibility_.triangle(pending[i + kVaryingsAhead].triangle));
     const Pending& each = pending[i];
+    if (each.quad == kManyTriangles) {
+      set_up_lanes(visibility_, visibility_.pixels(each.block), each.pixels,
+                   tile_x_ + column_of_bit(each.block) * kBlockSize, tile_y_ + row_of_bit(each.block) * kBlockSize,
+                   draw.state->programs->varyings, lane_triangles_);
+      packer_.add_lanes(lane_triangles_, each.block, each.pixels);
+      continue;
+    }
     keep_pending_setups();
     const TriangleSetup& setup = setups_.of(visibility_.triangle(each.triangle));
     if (each.quad == kManyQuads) {

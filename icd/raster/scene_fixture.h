@@ -74,7 +74,8 @@ inline void add_rectangle(std::vector<Vertex>& out, float x0, float y0, float x1
 
 inline bool same_plan(const FragmentPlan& a, const FragmentPlan& b) {
   return a.depth_test == b.depth_test && a.early_depth == b.early_depth && a.depth_write == b.depth_write &&
-         a.depth_compare == b.depth_compare && a.writes_color == b.writes_color && a.deferrable == b.deferrable;
+         a.depth_compare == b.depth_compare && a.writes_color == b.writes_color && a.deferrable == b.deferrable &&
+         a.pixels_alone == b.pixels_alone;
 }
 
 // A pass over one float colour target and one of depth, with draws of any plan.
@@ -120,7 +121,7 @@ struct ScenePass {
       before = &draw;
       GraphicsPrograms& programs = draw.programs;
       static_cast<FragmentPlan&>(programs) = draw.plan;
-      if (in_order) programs.early_depth = programs.deferrable = false;
+      if (in_order) programs.early_depth = programs.deferrable = programs.pixels_alone = false;
       programs.fragment_reads_nothing = !in_order && !programs.writes_color;
       programs.vertex = vertex_program();
       programs.fragment = fragment_program(programs, draw.accumulate, format);

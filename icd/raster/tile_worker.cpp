@@ -339,7 +339,9 @@ void TileWorker::keep_pending_setups() {
 
 uint32_t TileWorker::number() {
   if (triangle_.number == 0) {
-    if (deferred_draws_.empty() || deferred_draws_.back() != draw_.call) deferred_draws_.push_back(draw_.call);
+    if (deferred_draws_.empty() || deferred_draws_.back().call != draw_.call) {
+      deferred_draws_.push_back({draw_.call, visibility_.next_number()});
+    }
     triangle_.number =
         visibility_.add({triangle_.chunk, triangle_.index, static_cast<uint32_t>(deferred_draws_.size() - 1), 0});
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "raster/few_pixels.h"
+#include "raster/lane_triangles.h"
 #include "raster/quad_packer.h"
 #include "raster/setup_ring.h"
 #include "raster/tile_depth.h"
@@ -56,9 +57,10 @@ class TileWorker {
     uint64_t pixels;  // of the block, or of the quad in bits 0 to 3
     uint32_t triangle;
     uint8_t block;
-    uint8_t quad;  // kManyQuads, or one of the block
+    uint8_t quad;  // of the block, or one of these
   };
   static constexpr uint8_t kManyQuads = 0xFF;
+  static constexpr uint8_t kManyTriangles = 0xFE;  // of the same draw; `triangle` is one of them
 
   void draw_triangles(uint32_t tile, const BinSet& set);
   void list_triangles(uint32_t tile, const BinSet& set);
@@ -84,6 +86,8 @@ class TileWorker {
 
   void resolve();
   void collect_pending();
+  bool collect_lanes(uint32_t block, uint64_t pixels);
+  void collect_quads(uint32_t block, uint64_t pixels);
   void shade(const DrawCall& draw, std::span<const Pending> pending);
 
   const TilePass* pass_ = nullptr;
@@ -108,13 +112,18 @@ class TileWorker {
   TriangleDepth triangle_depth_;
   TileCoverage coverage_;
   BlockRanges triangle_ranges_;
+  LaneTriangles lane_triangles_;
 
   struct Listed {
     const BinChunk* chunk;
     uint32_t index;  // in chunk->triangles
   };
   std::vector<Listed> listed_;
-  std::vector<const DrawCall*> deferred_draws_;  // TileTriangle::draw
+  struct DeferredDraw {
+    const DrawCall* call;
+    uint32_t first;  // number of a triangle; the others follow
+  };
+  std::vector<DeferredDraw> deferred_draws_;  // TileTriangle::draw
   std::vector<Pending> pending_, sorted_;
   std::vector<uint32_t> draw_end_;
 };

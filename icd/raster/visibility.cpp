@@ -32,10 +32,18 @@ uint64_t equal(const uint32_t* numbers, uint32_t value) {
   return lanes;
 }
 
+uint64_t between(const uint32_t* numbers, uint32_t first, uint32_t end) {
+  uint64_t lanes = 0;
+  for (int i = 0; i < kLanes; i += kVectorLanes) {
+    lanes |= bits_of(lt(load<U>(numbers + i) - broadcast(first), broadcast(end - first))) << i;
+  }
+  return lanes;
+}
+
 }  // namespace
 
 extern const LaneNumberFunctions kLaneNumbers;
-const LaneNumberFunctions kLaneNumbers = {fill, fill_lanes, equal};
+const LaneNumberFunctions kLaneNumbers = {fill, fill_lanes, equal, between};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lapilli

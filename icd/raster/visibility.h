@@ -14,6 +14,8 @@ struct LaneNumberFunctions {
   void (*fill)(uint32_t* numbers, uint32_t value);
   void (*fill_lanes)(uint32_t* numbers, uint64_t lanes, uint32_t value);
   uint64_t (*equal)(const uint32_t* numbers, uint32_t value);
+  // Those in [first, end).
+  uint64_t (*between)(const uint32_t* numbers, uint32_t first, uint32_t end);
 };
 const LaneNumberFunctions& lane_number_functions();
 
@@ -39,6 +41,7 @@ class Visibility {
     triangles_.push_back(triangle);
     return static_cast<uint32_t>(triangles_.size() - 1);
   }
+  uint32_t next_number() const { return static_cast<uint32_t>(triangles_.size()); }
   TileTriangle& triangle(uint32_t number) { return triangles_[number]; }
   const TileTriangle& triangle(uint32_t number) const { return triangles_[number]; }
 

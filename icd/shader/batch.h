@@ -20,9 +20,7 @@ constexpr uint32_t kMaxVertexAttributes = 16;
 constexpr uint32_t kMaxColorAttachments = 8;
 
 // All lanes of the quads that have one in `lanes`.
-inline uint64_t whole_quads(uint64_t lanes) {
-  return live_quads(lanes) * 15;
-}
+inline uint64_t whole_quads(uint64_t lanes) { return live_quads(lanes) * 15; }
 
 struct VertexBinding {
   const std::byte* data = nullptr;
@@ -65,6 +63,20 @@ struct TilePlanes {
   std::byte* depth = nullptr;
 };
 
+// The triangles of a batch where each lane may have its own: the pixels of one block, for programs that look at no
+// other lanes (FragmentPlan::pixels_alone). Arrays by the triangle's number; edges 1 and 2 are those of TriangleSetup,
+// edge_c at the block's first pixel.
+struct LaneTriangles {
+  static constexpr uint32_t kMostShared = 16;
+  bool by_lane;                            // lane i has triangle i; else slot[i], below kMostShared
+  alignas(64) uint32_t slot[kBatchLanes];  // all initialized
+  alignas(64) double edge_a[2][kBatchLanes], edge_b[2][kBatchLanes], edge_c[2][kBatchLanes];
+  alignas(64) double inverse_area2[kBatchLanes];
+  alignas(64) float inverse_w[3][kBatchLanes];
+  alignas(64) uint32_t front_facing[kBatchLanes];
+  alignas(64) float varyings[kMaxVaryingComponents][3][kBatchLanes];
+};
+
 struct FragmentBatch {
   const TriangleSetup* triangle[kBatchQuads];  // never null; unused quads repeat a used one
   alignas(64) uint16_t x[kBatchQuads];         // framebuffer pixel of the quad's lane 0 (both even)
@@ -74,6 +86,7 @@ struct FragmentBatch {
   // The 16 quads are those of one 8x8 block, in order and all used: quad_in_tile[i] == quad_in_tile[0] + i, a multiple
   // of 16 the first.
   bool whole_block = false;
+  const LaneTriangles* lane_triangles = nullptr;  // instead of `triangle`; of a whole block, and no lane is a helper
   TilePlanes planes;
   float blend_constants[4] = {};
   uint64_t* samples_passed = nullptr;  // occlusion counter of this worker

@@ -161,7 +161,7 @@ void Execution::run_fragments(const FragmentBatch& batch, uint64_t lanes) {
     std::copy_n(batch.blend_constants, 4, state.blend_constants);
     state.once_is_due = true;
   }
-  state_->run(whole_quads(lanes), lanes);
+  state_->run(batch.lane_triangles != nullptr ? lanes : whole_quads(lanes), lanes);
 }
 
 void Execution::run_invocations(const ComputeBatch& batch, uint64_t lanes) {

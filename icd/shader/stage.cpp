@@ -356,6 +356,11 @@ Result<GraphicsCode> make_graphics_code(const ShaderStage& vertex, const ShaderS
   const size_t first = shader.code.instructions.size();
   emit_fragment_prologue(shader, depth_reg, varyings, live);
   move_to_front(shader.code, first);
+  out.pixels_alone = out.deferrable && std::none_of(shader.code.instructions.begin(), shader.code.instructions.end(),
+                                                    [](const Instruction& instruction) {
+                                                      return instruction.op == Opcode::frag_depth ||
+                                                             (op_info(instruction.op).effects & kCrossLane) != 0;
+                                                    });
   Result<Code> vertex_code = make_vertex_code(vertex, state, layout, varyings, out.removed);
   if (!vertex_code) return vertex_code.error();
   out.vertex = std::move(*vertex_code);

@@ -53,6 +53,8 @@ struct FragmentPlan {
   // Nobody can tell whether a pixel that a later draw covers was shaded: every colour attachment is written in full,
   // and nothing else happens but the early depth test.
   bool deferrable = false;
+  // Deferrable, and the program neither looks at other lanes nor reads depth: pixels may be shaded without their quads.
+  bool pixels_alone = false;
 };
 
 // What linking took out, for the ledger: lane-ops (cost of ops.def) of each lane.

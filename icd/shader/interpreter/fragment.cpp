@@ -68,7 +68,28 @@ struct Linear {
     store_floats(__builtin_convertvector(e2 * t.inverse_area2, QuadF), d + kLanes);
   }
 };
-using op_frag_linear = FromEdges<Linear>;
+
+struct op_frag_linear {
+  static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
+    const LaneTriangles* const triangles = frame->fragments->lane_triangles;
+    if (triangles == nullptr) return FromEdges<Linear>::run(op, frame);
+    float* const d = reinterpret_cast<float*>(reg(frame, op->dst));
+    for (int i = 0; i < kVectorsPerBatch; ++i) {
+      constexpr int kPerRow = 16 / kVectorLanes;
+      const D x = load_d(kLaneX) + broadcast(static_cast<double>(i % kPerRow * (kVectorLanes / 2)));
+      const D y = load_d(kLaneY) + broadcast(static_cast<double>(i / kPerRow * 2));
+      const int lane = i * kVectorLanes;
+      const D inverse_area2 = of_lanes(*triangles, triangles->inverse_area2, lane);
+      for (int e = 0; e < 2; ++e) {
+        const D edge =
+            x * of_lanes(*triangles, triangles->edge_a[e], lane) +
+            (y * of_lanes(*triangles, triangles->edge_b[e], lane) + of_lanes(*triangles, triangles->edge_c[e], lane));
+        store(to_float(edge * inverse_area2), d + e * kLanes + lane);
+      }
+    }
+    return op + 1;
+  }
+};
 
 struct Depth {
   static HWY_INLINE void lanes(D e1, D e2, const TriangleSetup& t, float* d) { store(depth_at(e1, e2, t.depth), d); }
@@ -103,6 +124,13 @@ struct op_frag_perspective {
     const uint32_t* const a = reg_u(frame, op->a);
     const uint32_t* const b = reg_u(frame, op->b);
     uint32_t* const d = reg_out(frame, op->dst);
+    if (const LaneTriangles* const t = batch.lane_triangles) {
+      for (int i = 0; i < kLanes; i += kVectorLanes) {
+        vector(load<F>(a + i), load<F>(b + i), of_lanes(*t, t->inverse_w[0], i), of_lanes(*t, t->inverse_w[1], i),
+               of_lanes(*t, t->inverse_w[2], i), d + i);
+      }
+      return op + 1;
+    }
     if (batch.one_triangle) {
       const float* const w = batch.triangle[0]->inverse_w;
       for (int i = 0; i < kLanes; i += kVectorLanes) {
@@ -126,6 +154,16 @@ struct op_interpolate {
     const uint32_t* const a = reg_u(frame, op->a);
     const uint32_t* const b = reg_u(frame, op->b);
     uint32_t* d = reg_out(frame, op->dst);
+    if (const LaneTriangles* const t = batch.lane_triangles) {
+      for (uint32_t result = 0; result < op->c; ++result, d += kLanes) {
+        const float(&planes)[3][kBatchLanes] = t->varyings[op->imm + result];
+        for (int i = 0; i < kLanes; i += kVectorLanes) {
+          const F sum = fma(load<F>(a + i), of_lanes(*t, planes[1], i), of_lanes(*t, planes[0], i));
+          store(fma(load<F>(b + i), of_lanes(*t, planes[2], i), sum), d + i);
+        }
+      }
+      return op + 1;
+    }
     if (batch.one_triangle) {
       const float* plane = batch.triangle[0]->varyings + op->imm * 3;
       for (uint32_t result = 0; result < op->c; ++result, plane += 3, d += kLanes) {
@@ -158,6 +196,11 @@ struct op_interpolate_flat {
     const FragmentBatch& batch = *frame->fragments;
     float* const d = reinterpret_cast<float*>(reg(frame, op->dst));
     for (int i = 0; i < kLanes; i += kVectorLanes) {
+      if (const LaneTriangles* const t = batch.lane_triangles) {
+        for (uint32_t k = 0; k < op->c; ++k)
+          store(of_lanes(*t, t->varyings[op->imm + k][0], i), d + k * kBatchLanes + i);
+        continue;
+      }
       const float* planes[kQuadsPerVector];
       for (int quad = 0; quad < kQuadsPerVector; ++quad) planes[quad] = batch.triangle[i / 4 + quad]->varyings;
       for (uint32_t result = 0; result < op->c; ++result) {

@@ -18,8 +18,9 @@ using Lanes = std::array<uint32_t, kBatchLanes>;
 inline float f(uint32_t bits) { return std::bit_cast<float>(bits); }
 inline uint32_t u(float value) { return std::bit_cast<uint32_t>(value); }
 
-// Whose quads a batch has: of four triangles in turn or of one, at random even places or in one block.
-enum class Quads { many_triangles, one_triangle, block, block_of_many };
+// Whose quads a batch has: of four triangles in turn or of one, at random even places or in one block; or the lanes of
+// a block have triangles of their own, each once or several times.
+enum class Quads { many_triangles, one_triangle, block, block_of_many, lanes, shared_by_lanes };
 
 struct FragmentTest {
   TestFrame test;
@@ -30,6 +31,7 @@ struct FragmentTest {
   alignas(64) uint32_t color[4096] = {};
   const TexelFunctions* colors[1] = {};
   uint64_t counter = 0;
+  LaneTriangles lane_triangles = {};
 
   FragmentTest(SimdTarget target, Quads quads) : test(target) {
     const bool one_triangle = quads == Quads::one_triangle || quads == Quads::block;
@@ -59,7 +61,8 @@ struct FragmentTest {
       batch.y[q] = static_cast<uint16_t>(random() % 4096 * 2);
       batch.quad_in_tile[q] = static_cast<uint16_t>(q * 61 % 1024);
     }
-    if (quads == Quads::block || quads == Quads::block_of_many) use_block(1232, 4048, 37);
+    if (quads == Quads::block || quads >= Quads::block_of_many) use_block(1232, 4048, 37);
+    if (quads >= Quads::lanes) use_lanes(quads == Quads::lanes);
     batch.one_triangle = one_triangle;
     batch.planes.depth = reinterpret_cast<std::byte*>(depth);
     batch.planes.color[0] = reinterpret_cast<std::byte*>(color);
@@ -83,7 +86,28 @@ struct FragmentTest {
     batch.whole_block = true;
   }
 
-  const TriangleSetup& triangle(uint32_t lane) const { return *batch.triangle[lane / 4]; }
+  void use_lanes(bool by_lane) {
+    lane_triangles.by_lane = by_lane;
+    for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
+      const uint32_t slot = by_lane ? lane : (lane * 5 + 3) % LaneTriangles::kMostShared;
+      lane_triangles.slot[lane] = slot;
+      const TriangleSetup& t = triangles[slot % 4];
+      for (size_t e = 0; e < 2; ++e) {
+        lane_triangles.edge_a[e][slot] = t.edge_a[e + 1];
+        lane_triangles.edge_b[e][slot] = t.edge_b[e + 1];
+        lane_triangles.edge_c[e][slot] = t.edge_a[e + 1] * batch.x[0] + t.edge_b[e + 1] * batch.y[0] + t.edge_c[e + 1];
+      }
+      lane_triangles.inverse_area2[slot] = t.inverse_area2;
+      for (size_t v = 0; v < 3; ++v) lane_triangles.inverse_w[v][slot] = t.inverse_w[v];
+      lane_triangles.front_facing[slot] = t.front_facing;
+      for (size_t i = 0; i < 9; ++i) lane_triangles.varyings[i / 3][i % 3][slot] = varyings[slot % 4][i];
+    }
+    batch.lane_triangles = &lane_triangles;
+  }
+
+  const TriangleSetup& triangle(uint32_t lane) const {
+    return batch.lane_triangles != nullptr ? triangles[lane_triangles.slot[lane] % 4] : *batch.triangle[lane / 4];
+  }
   uint32_t x(uint32_t lane) const { return batch.x[lane / 4] + (lane & 1); }
   uint32_t y(uint32_t lane) const { return batch.y[lane / 4] + (lane >> 1 & 1); }
   // In integers.

@@ -13,6 +13,7 @@
 #include "image/texel.h"
 #include "shader/interpreter/handlers.h"
 #include "shader/interpreter/machine-inl.h"
+#include "shader/interpreter/planes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lapilli {
@@ -36,6 +37,12 @@ void fragment_builtin(const FragmentBatch& batch, BuiltIn which, std::byte* d) {
   // The four lanes of a quad.
   typedef float QuadF __attribute__((vector_size(16)));
   typedef uint32_t QuadU __attribute__((vector_size(16)));
+  if (which == BuiltIn::front_facing && batch.lane_triangles != nullptr) {
+    const LaneTriangles& triangles = *batch.lane_triangles;
+    const float* const facing = reinterpret_cast<const float*>(triangles.front_facing);
+    for (int i = 0; i < kLanes; i += kVectorLanes) store(of_lanes(triangles, facing, i), d + i * 4);
+    return;
+  }
   for (int quad = 0; quad < kLanes / 4; ++quad, d += 16) {
     const float x = static_cast<float>(batch.x[quad]);
     const float y = static_cast<float>(batch.y[quad]);

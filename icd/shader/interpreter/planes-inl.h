@@ -7,7 +7,7 @@
 #define LAPILLI_SHADER_PLANES_INL_H
 #endif
 
-#include "base/lanes-inl.h"
+#include "base/lanes_gather-inl.h"
 #include "shader/batch.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -35,6 +35,14 @@ struct BlockEdge {
     return first + broadcast(a * dx + b * dy);
   }
 };
+
+// What the triangles of lanes i … have in one of LaneTriangles' arrays.
+HWY_INLINE F of_lanes(const LaneTriangles& triangles, const float* table, int i) {
+  return triangles.by_lane ? load<F>(table + i) : lookup16(table, load<U>(triangles.slot + i));
+}
+HWY_INLINE D of_lanes(const LaneTriangles& triangles, const double* table, int i) {
+  return triangles.by_lane ? load_d(table + i) : lookup16(table, load<U>(triangles.slot + i));
+}
 
 // Its clamp, as frag_depth has it: a NaN stays one.
 HWY_API F clamp_depth(F z, const DepthPlane& plane) { return min(max(z, broadcast(plane.min)), broadcast(plane.max)); }
