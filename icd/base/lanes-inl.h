@@ -17,6 +17,7 @@
 //                             is no NaN; min and max on I and U as expected
 //   reduce_min, reduce_max    of the lanes of an F without NaN
 //   mul_high                  the upper 32 bits of a 64-bit product
+//   dot_of_halves             the sum of the products of both signed 16-bit halves
 //   shift_left, shift_right   by a vector count modulo 32, or shift_left<n>(v); arithmetic for I, logical for U
 //   divide, remainder, modulo integers, defined for every operand: lanes_integer-inl.h
 //   trunc floor ceil round_even  sqrt  abs  negate  copy_sign

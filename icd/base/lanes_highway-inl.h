@@ -184,6 +184,17 @@ HWY_API I mul_high(I a, I b) {
   const auto odd = hn::MulEven(move_odd_lanes_to_even(a), move_odd_lanes_to_even(b));
   return join_high_halves(as_i(even), as_i(odd));
 }
+// The sum of the products of both signed 16-bit halves.
+HWY_API I dot_of_halves(U a, U b) {
+#if HWY_TARGET == HWY_AVX3
+  return I{_mm512_madd_epi16(a.raw, b.raw)};
+#elif HWY_TARGET == HWY_AVX2
+  return I{_mm256_madd_epi16(a.raw, b.raw)};
+#else
+  const auto low = [](U v) { return shift_right<16>(as_i(shift_left<16>(v))); };
+  return low(a) * low(b) + shift_right<16>(as_i(a)) * shift_right<16>(as_i(b));
+#endif
+}
 
 // Floats.
 HWY_API F sqrt(F a) { return hn::Sqrt(a); }

@@ -200,6 +200,7 @@ HWY_API I mul_high(I a, I b) {
   const I excess = (shift_right<31>(a) & b) + (shift_right<31>(b) & a);
   return as_i(mul_high(as_u(a), as_u(b))) - excess;
 }
+HWY_API I dot_of_halves(U a, U b) { return {_mm_madd_epi16(a.raw, b.raw)}; }
 
 // Floats.
 HWY_API F operator+(F a, F b) { return {_mm_add_ps(a.raw, b.raw)}; }

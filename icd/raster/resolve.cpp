@@ -26,6 +26,7 @@ void TileWorker::resolve() {
   if (!visibility_.pending()) return;
   collect_pending();
   visibility_.forget_pixels();
+  if (pending_.empty()) return;
   const auto draw_of = [&](const Pending& each) { return visibility_.triangle(each.triangle).draw; };
   const uint32_t draws = static_cast<uint32_t>(deferred_draws_.size());
   uint32_t first_draw = draws, last_draw = 0;
@@ -57,11 +58,12 @@ void TileWorker::collect_pending() {
     pending_.push_back({valid_[block], visibility_.whole_block(block), static_cast<uint8_t>(block), kManyQuads});
   });
   const LaneNumberFunctions& functions = lane_number_functions();
-  uint64_t partly = 0;  // blocks of which something else is seen too
+  uint64_t full = 0, partly = 0;  // blocks; partly: something else is seen too
   for_each_bit(visibility_.mixed(), [&](uint32_t block) {
     const uint32_t* const seen = visibility_.pixels(block);
     uint64_t rest = valid_[block] & ~functions.equal(seen, Visibility::kNobody);
-    if (rest != valid_[block]) partly |= uint64_t{1} << block;
+    if (rest == 0) return;  // nobody is seen
+    (rest == valid_[block] ? full : partly) |= uint64_t{1} << block;
     while (rest != 0) {
       const uint32_t draw = visibility_.triangle(seen[std::countr_zero(rest)]).draw;
       const bool last = draw + 1 == deferred_draws_.size();
@@ -71,7 +73,7 @@ void TileWorker::collect_pending() {
       rest &= ~pixels;
     }
   });
-  storage_.overwrite_colors(visibility_.mixed() & ~partly);
+  storage_.overwrite_colors(full);
   storage_.fetch_colors(partly);
 }
 

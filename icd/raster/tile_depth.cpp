@@ -11,19 +11,18 @@ namespace lapilli {
 void TileDepth::begin_cleared(float* plane, float depth) {
   plane_ = plane;
   clear_ = depth;
-  changed_ = 0;
+  changed_ = touched_ = 0;
   std::fill_n(owner_, 64, kCleared);
   std::fill_n(ranges_.min, 64, depth);
   std::fill_n(ranges_.max, 64, depth);
   range_ = {depth, depth};
   range_is_old_ = false;
-  std::fill_n(included_, 64, uint8_t{0});
 }
 
 void TileDepth::begin_loaded(float* plane, const uint64_t (&valid)[64]) {
   plane_ = plane;
   std::fill_n(owner_, 64, kPlane);
-  changed_ = 0;
+  changed_ = touched_ = 0;
   const BlockDepthFunctions& functions = block_depth_functions();
   for (uint32_t block = 0; block < 64; ++block) {
     float* const first = plane_ + first_texel_of_block(block);
@@ -39,7 +38,6 @@ void TileDepth::begin_loaded(float* plane, const uint64_t (&valid)[64]) {
     ranges_.max[block] = range.max;
   }
   range_is_old_ = true;
-  std::fill_n(included_, 64, uint8_t{0});
 }
 
 float* TileDepth::fill(uint32_t block) {
@@ -54,11 +52,16 @@ void TileDepth::cover(uint64_t blocks, uint32_t triangle, const BlockRanges& ran
   hierarchical_depth_functions().copy(ranges_, ranges, blocks);
   range_is_old_ = true;
   changed_ |= blocks;
+  touched_ &= ~blocks;
 }
 
-void TileDepth::tighten(uint32_t block) { set_range(block, block_depth_functions().range(plane(block))); }
+void TileDepth::make_ranges() {
+  const BlockDepthFunctions& functions = block_depth_functions();
+  for_each_bit(touched_, [&](uint32_t block) { set_range(block, functions.range(plane(block))); });
+}
 
 DepthRange TileDepth::range() {
+  make_ranges();
   if (range_is_old_) range_ = hierarchical_depth_functions().range(ranges_);
   range_is_old_ = false;
   return range_;

@@ -20,8 +20,10 @@ class TileDepth {
   // The plane has the depths of the pixels in `valid` (by block); those of the others are made up.
   void begin_loaded(float* plane, const uint64_t (&valid)[64]);
 
-  const BlockRanges& ranges() const { return ranges_; }
-  DepthRange range(uint32_t block) const { return {ranges_.min[block], ranges_.max[block]}; }
+  const BlockRanges& ranges() {
+    make_ranges();
+    return ranges_;
+  }
   DepthRange range();  // of the whole tile
 
   uint32_t owner(uint32_t block) const { return owner_[block]; }
@@ -39,31 +41,23 @@ class TileDepth {
     ranges_.max[block] = range.max;
     range_is_old_ = true;
     changed_ |= uint64_t{1} << block;
-    included_[block] = 0;
+    touched_ &= ~(uint64_t{1} << block);
   }
-  // One depth of the block has changed in the plane, to z. The range only grows, so that it is made anew now and then.
-  void include(uint32_t block, float z) {
-    if (++included_[block] == kMostIncluded || z != z) return tighten(block);
-    ranges_.min[block] = z < ranges_.min[block] ? z : ranges_.min[block];
-    ranges_.max[block] = z > ranges_.max[block] ? z : ranges_.max[block];
-    range_is_old_ = true;
-    changed_ |= uint64_t{1} << block;
-  }
+  // Depths of the block have changed in the plane; its range is made when somebody asks.
+  void touch(uint32_t block) { touched_ |= uint64_t{1} << block; }
   // Blocks whose depths are no longer those that the tile began with.
-  uint64_t changed() const { return changed_; }
+  uint64_t changed() const { return changed_ | touched_; }
 
  private:
-  static constexpr uint8_t kMostIncluded = 32;
-  void tighten(uint32_t block);
+  void make_ranges();
 
   float* plane_ = nullptr;
   float clear_ = 0;
   bool range_is_old_ = false;
   DepthRange range_{};
-  uint64_t changed_ = 0;
+  uint64_t changed_ = 0, touched_ = 0;  // touched: without a range
   BlockRanges ranges_;
   alignas(64) uint32_t owner_[64];
-  uint8_t included_[64];  // since the range was exact
 };
 
 }  // namespace lapilli

@@ -16,13 +16,25 @@ struct Plane {
   alignas(64) float depths[kTileTexels] = {};
 };
 
-void include_once(TileDepth& depth, float z) {
-  *depth.plane(kBlock) = z;
-  depth.include(kBlock, z);
+TEST(TileDepth, ATouchedBlocksRangeIsMadeWhenSomebodyAsks) {
+  Plane plane;
+  TileDepth depth;
+  depth.begin_cleared(plane.depths, 1);
+  EXPECT_EQ(depth.changed(), 0u);
+  *depth.fill(kBlock) = 0.5f;
+  depth.touch(kBlock);
+  EXPECT_EQ(depth.changed(), uint64_t{1} << kBlock);
+  EXPECT_EQ(depth.range().min, 0.5f);
+  EXPECT_EQ(depth.range().max, 1.0f);
+  std::fill_n(depth.plane(kBlock), kBlockTexels, 0.25f);
+  depth.touch(kBlock);
+  EXPECT_EQ(depth.ranges().min[kBlock], 0.25f);
+  EXPECT_EQ(depth.ranges().max[kBlock], 0.25f);
+  EXPECT_EQ(depth.ranges().min[kBlock + 1], 1.0f);
 }
 
-// The range grows with each depth; that it is made anew now and then is counted from the tile's beginning.
-TEST(TileDepth, ATileBeginsToCountAnew) {
+// What was touched in the tile before is forgotten: its plane is another one's.
+TEST(TileDepth, ATileBeginsAnew) {
   Plane plane;
   uint64_t valid[64];
   std::fill_n(valid, 64, kAllBits);
@@ -30,33 +42,16 @@ TEST(TileDepth, ATileBeginsToCountAnew) {
     TileDepth depth;
     const auto begin = [&] {
       std::fill_n(plane.depths, kTileTexels, 1.0f);
-      if (!cleared) return depth.begin_loaded(plane.depths, valid);
-      depth.begin_cleared(plane.depths, 1);
-      depth.fill(kBlock);
+      return cleared ? depth.begin_cleared(plane.depths, 1) : depth.begin_loaded(plane.depths, valid);
     };
     begin();
-    for (int i = 0; i < 31; ++i) include_once(depth, 0.25f);
-    EXPECT_EQ(depth.range(kBlock).min, 0.25f);
+    std::fill_n(depth.plane(kBlock), kBlockTexels, 0.5f);
+    depth.touch(kBlock);
     begin();
-    std::fill_n(depth.plane(kBlock), kBlockTexels, 0.75f);  // a range made anew would show it
-    include_once(depth, 0.5f);
-    EXPECT_EQ(depth.range(kBlock).min, 0.5f);
-    EXPECT_EQ(depth.range(kBlock).max, 1.0f);
-    EXPECT_EQ(depth.changed(), uint64_t{1} << kBlock);
+    std::fill_n(depth.plane(kBlock), kBlockTexels, 0.75f);  // a range made now would show it
+    EXPECT_EQ(depth.range().min, 1.0f);
+    EXPECT_EQ(depth.changed(), 0u);
   }
-}
-
-TEST(TileDepth, TheRangeIsMadeAnewNowAndThen) {
-  Plane plane;
-  TileDepth depth;
-  depth.begin_cleared(plane.depths, 1);
-  depth.fill(kBlock);
-  std::fill_n(depth.plane(kBlock), kBlockTexels, 0.5f);
-  for (int i = 0; i < 31; ++i) include_once(depth, 0.5f);
-  EXPECT_EQ(depth.range(kBlock).max, 1.0f);
-  include_once(depth, 0.5f);
-  EXPECT_EQ(depth.range(kBlock).min, 0.5f);
-  EXPECT_EQ(depth.range(kBlock).max, 0.5f);
 }
 
 }  // namespace

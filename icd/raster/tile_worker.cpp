@@ -18,8 +18,8 @@ uint64_t depth_test_cost() {
   return uint64_t{kBatchLanes} * (op_info(Opcode::frag_depth).cost + op_info(Opcode::depth_test).cost);
 }
 
-// Pixels of a triangle's bounds: fewer are tested rather than judged.
-constexpr int32_t kWorthJudging = 16;
+// Small triangles in so many blocks at most are tested rather than judged.
+constexpr int32_t kMostSmallBlocks = 4;
 constexpr size_t kVerticesAhead = 8;        // triangles
 constexpr size_t kTrianglesPerLook = 1024;  // at the time limit
 constexpr DepthRange kAnyDepth = {-std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity()};
@@ -29,6 +29,7 @@ constexpr DepthRange kAnyDepth = {-std::numeric_limits<float>::infinity(), std::
 bool TileWorker::begin_pass(const TilePass& pass) {
   pass_ = &pass;
   block_depth_ = &block_depth_functions();
+  small_triangles_ = &small_triangle_functions();
   packer_.begin_pass(*pass.limits);
   depth_attachment_ = 0;
   while (depth_attachment_ < pass.attachments.size() && !pass.attachments[depth_attachment_].is_depth) {
@@ -175,31 +176,15 @@ void TileWorker::draw_triangle(const BinChunk& chunk, uint32_t index) {
   const int32_t x = static_cast<int32_t>(tile_x_);
   const int32_t y = static_cast<int32_t>(tile_y_);
   PixelRect rect = intersect({triangle.x0 - x, triangle.y0 - y, triangle.x1 - x, triangle.y1 - y}, tile_rect_);
-  if (is_few(rect)) return draw_few_pixels(chunk, index, rect);
+  if (rect.empty()) return;
+  triangle_ = {&chunk, index, 0, nullptr, false};
+  if (draw_small(rect)) return;
   // A block is whole if all of it that can be seen is covered.
   if (rect.x0 == tile_rect_.x0) rect.x0 &= -kBlock;
   if (rect.y0 == tile_rect_.y0) rect.y0 &= -kBlock;
   if (rect.x1 == tile_rect_.x1) rect.x1 = (rect.x1 + kBlock - 1) & -kBlock;
   if (rect.y1 == tile_rect_.y1) rect.y1 = (rect.y1 + kBlock - 1) & -kBlock;
   if (!coverage_.begin(make_edges(chunk, triangle), x, y, rect)) return;
-  triangle_ = {&chunk, index, 0, nullptr, false};
-
-  const bool one_block = rect.x0 / kBlock == (rect.x1 - 1) / kBlock && rect.y0 / kBlock == (rect.y1 - 1) / kBlock;
-  if (one_block) {
-    const uint32_t block = bit_of(static_cast<uint32_t>(rect.x0 / kBlock), static_cast<uint32_t>(rect.y0 / kBlock));
-    const int32_t size = (rect.x1 - rect.x0) * (rect.y1 - rect.y0);
-    const uint64_t pixels = coverage_.pixels(block) & valid_[block];
-    if (pixels == 0) return;
-    if (draw_.tallies) draw_.covered += static_cast<uint64_t>(std::popcount(pixels));
-    bool always = false;
-    if (draw_.early_depth) {
-      triangle_depth_ = triangle_depth(setup());
-      if (size >= kWorthJudging && judge_block(block, rect, always)) return;
-    }
-    draw_block(block, pixels, always);
-    return;
-  }
-
   const TileCoverage::Blocks blocks = coverage_.blocks();
   if (blocks.touched == 0) return;
   if (draw_.call->ledger != nullptr) count_covered(blocks);
@@ -220,22 +205,45 @@ void TileWorker::draw_triangle(const BinChunk& chunk, uint32_t index) {
   });
 }
 
+// Block by block, if the triangle is small. `rect`: its bounds in the tile, from the tile's origin.
+bool TileWorker::draw_small(const PixelRect& rect) {
+  const int32_t first_x = rect.x0 / kBlock, first_y = rect.y0 / kBlock;
+  const int32_t last_x = (rect.x1 - 1) / kBlock, last_y = (rect.y1 - 1) / kBlock;
+  if ((last_x - first_x + 1) * (last_y - first_y + 1) > kMostSmallBlocks) return false;
+  SmallTriangle small;
+  const BinTriangle& triangle = triangle_.chunk->triangles[triangle_.index];
+  if (!make_small_triangle(*triangle_.chunk, triangle, tile_x_, tile_y_, small)) return false;
+  DrawSmallTriangle* const draw = small_triangles_->draw[draw_.compare];
+  const bool deferred = draw_.shading == Shading::deferred;
+  for (int32_t row = first_y; row <= last_y; ++row) {
+    for (int32_t column = first_x; column <= last_x; ++column) {
+      const uint32_t block = bit_of(static_cast<uint32_t>(column), static_cast<uint32_t>(row));
+      SmallTarget target;
+      if (draw_.early_depth) target.depths = depths_of(block);
+      target.write_depth = draw_.depth_write;
+      if (deferred) {
+        target.numbers = visibility_.mixed_pixels(block);
+        target.number = triangle_.number == 0 ? visibility_.next_number() : triangle_.number;
+      }
+      const SmallDrawn drawn = draw(small, column * kBlock, row * kBlock, pixels_in_rect(rect, block), target);
+      if (draw_.tallies) {
+        draw_.covered += static_cast<uint64_t>(std::popcount(drawn.covered));
+        draw_.passed += static_cast<uint64_t>(std::popcount(drawn.passed));
+      }
+      if (drawn.passed == 0) continue;
+      if (draw_.early_depth && draw_.depth_write) depth_.touch(block);
+      if (deferred) number();
+      if (draw_.shading == Shading::in_order) shade_in_order(block, drawn.passed);
+    }
+  }
+  return true;
+}
+
 void TileWorker::count_covered(const TileCoverage::Blocks& blocks) {
   for_each_bit(blocks.touched, [&](uint32_t block) {
     const uint64_t pixels = coverage_.pixels(block) & valid_[block];
     draw_.covered += static_cast<uint64_t>(std::popcount(pixels));
   });
-}
-
-// True: nothing of it can pass.
-bool TileWorker::judge_block(uint32_t block, const PixelRect& rect, bool& always) {
-  if (!pass_->judge_blocks) return false;
-  const DepthBounds bounds = depth_bounds(triangle_depth_, tile_x_, tile_y_);
-  if (!bounds.known) return false;
-  const BlockVerdicts verdict = judge(draw_.compare, range_in_rect(bounds, rect), depth_.range(block));
-  always = verdict.always != 0;
-  draw_.judged_blocks += verdict.always | verdict.never;
-  return verdict.never != 0;
 }
 
 BlockVerdicts TileWorker::judge_blocks(const PixelRect& rect) {

@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "raster/few_pixels.h"
 #include "raster/lane_triangles.h"
 #include "raster/quad_packer.h"
 #include "raster/setup_ring.h"
+#include "raster/small_triangle.h"
 #include "raster/tile_depth.h"
 #include "raster/tile_storage.h"
 #include "raster/visibility.h"
@@ -69,10 +69,8 @@ class TileWorker {
   void report_draw();
   void begin_depth();
   void draw_triangle(const BinChunk& chunk, uint32_t index);
-  void draw_few_pixels(const BinChunk& chunk, uint32_t index, const PixelRect& rect);
-  uint32_t test_few_depths(uint32_t block, FewPixels& few, const DepthPlane& plane);
+  bool draw_small(const PixelRect& rect);
   void count_covered(const TileCoverage::Blocks& blocks);
-  bool judge_block(uint32_t block, const PixelRect& rect, bool& always);
   BlockVerdicts judge_blocks(const PixelRect& rect);
   void cover_blocks(uint64_t blocks);
   void draw_block(uint32_t block, uint64_t pixels, bool always);
@@ -92,6 +90,7 @@ class TileWorker {
 
   const TilePass* pass_ = nullptr;
   const BlockDepthFunctions* block_depth_ = nullptr;
+  const SmallTriangleFunctions* small_triangles_ = nullptr;
   TileStorage storage_;
   TileDepth depth_;
   Visibility visibility_;

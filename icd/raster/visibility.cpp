@@ -74,8 +74,7 @@ void Visibility::mix(uint32_t block) {
 }
 
 void Visibility::cover_pixels(uint32_t block, uint64_t pixels, uint32_t number) {
-  if ((mixed_ >> block & 1) == 0) mix(block);
-  functions_->fill_lanes(seen_ + block * kBlockTexels, pixels, number);
+  functions_->fill_lanes(mixed_pixels(block), pixels, number);
 }
 
 }  // namespace lapilli

@@ -48,9 +48,10 @@ class Visibility {
   // From here on the triangle is what is seen: in whole blocks, or in the pixels of one.
   void cover(uint64_t blocks, uint32_t number);
   void cover_pixels(uint32_t block, uint64_t pixels, uint32_t number);
-  void cover_pixel(uint32_t block, uint32_t pixel, uint32_t number) {
+  // The numbers of the block's pixels, for the caller to change.
+  uint32_t* mixed_pixels(uint32_t block) {
     if ((mixed_ >> block & 1) == 0) mix(block);
-    seen_[block * kBlockTexels + pixel] = number;
+    return seen_ + block * kBlockTexels;
   }
 
   // Blocks with a pixel that waits to be shaded, by one triangle or by any.

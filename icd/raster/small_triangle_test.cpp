@@ -1,0 +1,116 @@
+// Small triangles in a block against the integers of make_edge_functions and the depth test of whole blocks.
+#include "raster/small_triangle.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <random>
+
+#include "raster/coverage.h"
+#include "shader/block_depth.h"
+
+namespace lapilli {
+namespace {
+
+constexpr uint32_t kTileX = 128, kTileY = 1984;
+
+struct Block {
+  alignas(64) float depths[64];
+  alignas(64) uint32_t numbers[64];
+};
+
+void expect_block(const BinChunk& chunk, uint32_t column, uint32_t row, VkCompareOp compare, bool write,
+                  const Block& before) {
+  Block block = before;
+  const BinTriangle& triangle = chunk.triangles[0];
+  const uint32_t x = kTileX + column * 8, y = kTileY + row * 8;
+  const EdgeFunctions edges = make_edge_functions(chunk, triangle);
+  uint64_t covered = 0;
+  for (uint32_t bit = 0; bit < 64; ++bit) {
+    bool inside = true;
+    for (const EdgeFunction& edge : edges) {
+      const int64_t e = edge.a * (x + column_of_bit(bit)) + edge.b * (y + row_of_bit(bit)) + edge.c;
+      inside = inside && (e > 0 || (e == 0 && edge.owns));
+    }
+    covered |= uint64_t{inside} << bit;
+  }
+  const uint64_t asked = 0xFFFF'7F13'FFFF'FFFE;  // of the block's pixels
+  Block expected = block;
+  DepthRange range;
+  const TriangleDepth depth = triangle_depth(make_triangle_setup(chunk, triangle));
+  const uint64_t passed =
+      block_depth_functions().test[compare](depth, x, y, covered & asked, write, expected.depths, range);
+  for (uint32_t bit = 0; bit < 64; ++bit) {
+    if ((passed >> bit & 1) != 0) expected.numbers[bit] = 77;
+  }
+
+  SmallTriangle small;
+  ASSERT_TRUE(make_small_triangle(chunk, triangle, kTileX, kTileY, small));
+  DrawSmallTriangle* const draw = small_triangle_functions().draw[compare];
+  const int32_t block_x = static_cast<int32_t>(column * 8), block_y = static_cast<int32_t>(row * 8);
+  const SmallDrawn drawn = draw(small, block_x, block_y, asked, {block.depths, write, block.numbers, 77});
+  EXPECT_EQ(drawn.covered, covered & asked);
+  EXPECT_EQ(drawn.passed, passed);
+  EXPECT_EQ(std::memcmp(&block, &expected, sizeof block), 0);
+  const SmallDrawn alone = small_triangle_functions().draw[VK_COMPARE_OP_ALWAYS](small, block_x, block_y, kAllBits, {});
+  EXPECT_EQ(alone.covered, covered);
+  EXPECT_EQ(alone.passed, covered);
+}
+
+TEST(SmallTriangle, CoversAndTestsAsTheExactRules) {
+  const SimdTarget before = simd_target();
+  std::mt19937 random(3);
+  const auto between = [&](int32_t low, int32_t high) {
+    return std::uniform_int_distribution<int32_t>(low, high)(random);
+  };
+  for (int i = 0; i < 3000; ++i) {
+    const int32_t size = i % 3 == 0 ? 300 : i % 3 == 1 ? 1500 : 8191;
+    const int32_t step = i % 5 == 0 ? 128 : 1;  // on centres and pixel edges
+    const uint32_t column = random() % 8, row = random() % 8;
+    const int32_t x = static_cast<int32_t>(kTileX + column * 8) * 256 + between(0, 2048);
+    const int32_t y = static_cast<int32_t>(kTileY + row * 8) * 256 + between(0, 2048);
+    BinChunk chunk;
+    chunk.runs.push_back({0, {}, 0.0f, 1.0f, i % 4 == 0, 3.0f, 0, 1.5f});
+    BinVertex v[3] = {};
+    for (BinVertex& each : v) {
+      each.x = (x + between(-size / 2, size / 2)) / step * step;
+      each.y = (y + between(-size / 2, size / 2)) / step * step;
+      each.z = 0.01 * between(-10, 110);
+    }
+    const int64_t area = int64_t{v[1].x - v[0].x} * (v[2].y - v[0].y) - int64_t{v[2].x - v[0].x} * (v[1].y - v[0].y);
+    if (area == 0) continue;
+    if (area < 0) std::swap(v[1], v[2]);
+    for (const BinVertex& each : v) chunk.vertices.push_back(each);
+    chunk.triangles.push_back({{0, 1, 2}, 0, 0, 0, 1, 1});
+    Block block;
+    for (float& depth : block.depths) depth = 0.25f * static_cast<float>(between(0, 4));
+    for (uint32_t& number : block.numbers) number = static_cast<uint32_t>(random());
+    const auto compare = static_cast<VkCompareOp>(i % 8);
+    for (const SimdTarget target : supported_simd_targets()) {
+      ASSERT_TRUE(set_simd_target(target));
+      SCOPED_TRACE(simd_target_name(target));
+      expect_block(chunk, column, row, compare, i % 2 == 0, block);
+    }
+    set_simd_target(before);
+    if (HasFailure()) break;
+  }
+}
+
+TEST(SmallTriangle, RefusesWhatDoesNotFit32Bits) {
+  BinChunk chunk;
+  chunk.runs.push_back({});
+  for (const int32_t corner : {0, SmallTriangle::kMostExtent}) {
+    chunk.vertices.push_back({corner, 0, 0, 1, 0});
+  }
+  chunk.vertices.push_back({0, 100, 0, 1, 0});
+  chunk.triangles.push_back({{0, 1, 2}, 0, 0, 0, 1, 1});
+  SmallTriangle small;
+  EXPECT_FALSE(make_small_triangle(chunk, chunk.triangles[0], 0, 0, small));
+  --chunk.vertices.data()[1].x;
+  EXPECT_TRUE(make_small_triangle(chunk, chunk.triangles[0], 0, 0, small));
+  EXPECT_FALSE(make_small_triangle(chunk, chunk.triangles[0], 1024, 0, small));
+}
+
+}  // namespace
+}  // namespace lapilli
