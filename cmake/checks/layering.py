@@ -32,7 +32,7 @@ HIGHWAY = re.compile(r"^hwy/")
 # Files compiled once per SIMD target, relative to icd/.
 PER_TARGET = re.compile(
     r"^(base/.*|image/[^/]*-inl\.h|shader/interpreter/.*|shader/block_depth\.cpp|geometry/[^/]*_lanes\.cpp|"
-    r"raster/(hierarchical_depth|visibility)\.cpp)$")
+    r"raster/(hierarchical_depth|lane_triangles|small_triangle|visibility)\.cpp)$")
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)

@@ -347,6 +347,10 @@ void TileWorker::keep_pending_setups() {
 
 uint32_t TileWorker::number() {
   if (triangle_.number == 0) {
+    const BinChunk& chunk = *triangle_.chunk;
+    for (const uint16_t v : chunk.triangles[triangle_.index].v) {
+      __builtin_prefetch(chunk.varyings.data() + chunk.vertices[v].varyings);
+    }
     if (deferred_draws_.empty() || deferred_draws_.back().call != draw_.call) {
       deferred_draws_.push_back({draw_.call, visibility_.next_number()});
     }
