@@ -1,7 +1,5 @@
-// Coverage, depth test and visibility of a small triangle in a block, for every SIMD target.
+// Set-up, coverage, depth test and visibility of small triangles, for every SIMD target.
 #include "raster/small_triangle.h"
-
-#include <cstdlib>
 
 #include "base/simd_dispatch.h"
 #include "base/simd_targets.h"
@@ -17,21 +15,80 @@ namespace lapilli {
 namespace HWY_NAMESPACE {
 namespace {
 
-// Pixels from a block's first one as 16-bit numbers, x in the low half.
-alignas(64) constexpr uint32_t kLanePlaces[16] = {0, 1, 1 << 16,       (1 << 16) + 1,  //
-                                                  2, 3, (1 << 16) + 2, (1 << 16) + 3,  //
-                                                  4, 5, (1 << 16) + 4, (1 << 16) + 5,  //
-                                                  6, 7, (1 << 16) + 6, (1 << 16) + 7};
+// All of a vector of triangles; the numbers of those that are not small may wrap. Returns which are.
+HWY_INLINE M set_up_edges(TriangleGroup& group, uint32_t i, I centre_x, I centre_y) {
+  const I px[3] = {load<I>(group.x[0] + i), load<I>(group.x[1] + i), load<I>(group.x[2] + i)};
+  const I py[3] = {load<I>(group.y[0] + i), load<I>(group.y[1] + i), load<I>(group.y[2] + i)};
+  const I half = broadcast(TriangleGroup::kMostExtent);
+  U extents = zero_u();
+  I area2 = zero_i();
+  for (int e = 0; e < 3; ++e) {
+    const int from = (e + 1) % 3, to = (e + 2) % 3;
+    const I dx = px[to] - px[from], dy = py[to] - py[from];
+    extents = extents | as_u(dx + half) | as_u(dy + half);
+    const I at_centre = dx * (centre_y - py[from]) - dy * (centre_x - px[from]);
+    const M owns = lt(dy, zero_i()) | (eq(dy, zero_i()) & gt(dx, zero_i()));
+    const I less = select(owns, zero_i(), broadcast(-1));
+    area2 = area2 + at_centre;
+    store(as_i(shift_left<8>(as_u(negate(dy)))), group.a[e] + i);
+    store(as_i(shift_left<8>(as_u(dx))), group.b[e] + i);
+    store(at_centre + less, group.c[e] + i);
+    store(less, group.less[e] + i);
+    store((as_u(negate(dy)) & broadcast(0xFFFFu)) | shift_left<16>(as_u(dx)), group.steps[e] + i);
+  }
+  const D inverse = broadcast(1.0) / to_double(area2);
+  const D z0 = load_d(group.z[0] + i);
+  store_d((load_d(group.z[1] + i) - z0) * inverse, group.k1 + i);
+  store_d((load_d(group.z[2] + i) - z0) * inverse, group.k2 + i);
+  // Within 128 pixels of the tile's first one; with LAPILLI_KEEP=triangles one may lie further from its bounds.
+  const I near = broadcast(1 << 15);
+  const U distance = as_u(px[0] - centre_x + near) | as_u(py[0] - centre_y + near);
+  return lt(extents, broadcast(uint32_t{2 * TriangleGroup::kMostExtent})) & lt(distance, broadcast(1u << 16));
+}
 
-// An edge function over a block, 1 less where a centre on the edge is outside.
+HWY_INLINE M set_up_bounds(TriangleGroup& group, uint32_t i, I tile_x, I tile_y, const PixelRect& tile) {
+  U words[2];
+  load_interleaved<2>(group.bounds[i], words);
+  const auto low = broadcast(0xFFFFu);
+  const I x0 = max(as_i(words[0] & low) - tile_x, broadcast(tile.x0));
+  const I y0 = max(as_i(shift_right<16>(words[0])) - tile_y, broadcast(tile.y0));
+  const I x1 = min(as_i(words[1] & low) - tile_x, broadcast(tile.x1));
+  const I y1 = min(as_i(shift_right<16>(words[1])) - tile_y, broadcast(tile.y1));
+  store(x0, group.x0 + i);
+  store(y0, group.y0 + i);
+  store(x1, group.x1 + i);
+  store(y1, group.y1 + i);
+  static_assert(kBlockSize == 8);
+  const I one = broadcast(1);
+  const I columns = shift_right<3>(x1 - one) - shift_right<3>(x0) + one;
+  const I rows = shift_right<3>(y1 - one) - shift_right<3>(y0) + one;
+  return lt(x0, x1) & lt(y0, y1) & le(columns * rows, broadcast(TriangleGroup::kMostBlocks));
+}
+
+void set_up(TriangleGroup& group, uint32_t count, uint32_t tile_x, uint32_t tile_y, const PixelRect& tile) {
+  const int32_t x = static_cast<int32_t>(tile_x), y = static_cast<int32_t>(tile_y);
+  uint64_t small = 0;
+  for (uint32_t i = 0; i < count; i += kVectorLanes) {
+    const M fits = set_up_edges(group, i, broadcast(256 * x + 128), broadcast(256 * y + 128));
+    small |= bits_of(fits & set_up_bounds(group, i, broadcast(x), broadcast(y), tile)) << i;
+  }
+  group.small = static_cast<uint32_t>(small);
+}
+
+// Pixels from a block's first one as 16-bit numbers, x in the low half.
+alignas(64) constexpr uint32_t kLanePlaces[16] = {0x0'0000, 0x0'0001, 0x1'0000, 0x1'0001, 0x0'0002, 0x0'0003,
+                                                  0x1'0002, 0x1'0003, 0x0'0004, 0x0'0005, 0x1'0004, 0x1'0005,
+                                                  0x0'0006, 0x0'0007, 0x1'0006, 0x1'0007};
+
+// An edge function over a block.
 struct SmallEdge {
   I first;
   int32_t a, b;
 
-  HWY_INLINE SmallEdge(const SmallTriangle& t, int e, int32_t x, int32_t y) : a(-256 * t.dy[e]), b(256 * t.dx[e]) {
-    const uint32_t steps = static_cast<uint16_t>(-t.dy[e]) | static_cast<uint32_t>(t.dx[e]) << 16;
-    const U from_first = shift_left<8>(as_u(dot_of_halves(broadcast(steps), load<U>(kLanePlaces))));
-    first = as_i(from_first) + broadcast(t.c[e] + t.bias[e] + a * x + b * y);
+  HWY_INLINE SmallEdge(const TriangleGroup& group, uint32_t t, int e, int32_t x, int32_t y)
+      : a(group.a[e][t]), b(group.b[e][t]) {
+    const U from_first = as_u(dot_of_halves(broadcast(group.steps[e][t]), load<U>(kLanePlaces)));
+    first = as_i(shift_left<8>(from_first)) + broadcast(group.c[e][t] + a * x + b * y);
   }
   HWY_INLINE I vector(int i) const {
     constexpr int kPerRow = 16 / kVectorLanes;
@@ -40,9 +97,11 @@ struct SmallEdge {
 };
 
 template <int kCompare>
-SmallDrawn draw(const SmallTriangle& t, int32_t x, int32_t y, uint64_t pixels, const SmallTarget& target) {
-  const SmallEdge edge0(t, 0, x, y), edge1(t, 1, x, y), edge2(t, 2, x, y);
-  const I bias1 = broadcast(t.bias[1]), bias2 = broadcast(t.bias[2]);
+SmallDrawn draw(const TriangleGroup& group, uint32_t t, int32_t x, int32_t y, uint64_t pixels,
+                const SmallTarget& target) {
+  const SmallEdge edge0(group, t, 0, x, y), edge1(group, t, 1, x, y), edge2(group, t, 2, x, y);
+  const I less1 = broadcast(group.less[1][t]), less2 = broadcast(group.less[2][t]);
+  const DepthPlane plane = {target.z0, group.k1[t], group.k2[t], target.min_depth, target.max_depth};
   SmallDrawn drawn;
   for (int i = 0; i < kVectorsPerBatch; ++i) {
     const int at = i * kVectorLanes;
@@ -54,7 +113,7 @@ SmallDrawn draw(const SmallTriangle& t, int32_t x, int32_t y, uint64_t pixels, c
     drawn.covered |= covered << at;
     uint64_t passed = covered;
     if (target.depths != nullptr) {
-      const F z = depth_at(to_double(e1 - bias1), to_double(e2 - bias2), t.depth);
+      const F z = depth_at(to_double(e1 - less1), to_double(e2 - less2), plane);
       const F stored = load<F>(target.depths + at);
       passed &= bits_of(compare_depth<kCompare>(z, stored));
       if (passed == 0) continue;
@@ -72,7 +131,7 @@ SmallDrawn draw(const SmallTriangle& t, int32_t x, int32_t y, uint64_t pixels, c
 
 extern const SmallTriangleFunctions kSmallTriangles;
 const SmallTriangleFunctions kSmallTriangles = {
-    {draw<0>, draw<1>, draw<2>, draw<3>, draw<4>, draw<5>, draw<6>, draw<7>}};
+    set_up, {draw<0>, draw<1>, draw<2>, draw<3>, draw<4>, draw<5>, draw<6>, draw<7>}};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lapilli
@@ -80,37 +139,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace lapilli {
-
-bool make_small_triangle(const BinChunk& chunk, const BinTriangle& triangle, uint32_t tile_x, uint32_t tile_y,
-                         SmallTriangle& out) {
-  const BinVertex& p = chunk.vertices[triangle.v[0]];
-  const BinVertex& q = chunk.vertices[triangle.v[1]];
-  const BinVertex& r = chunk.vertices[triangle.v[2]];
-  const int32_t centre_x = static_cast<int32_t>(tile_x) * 256 + 128;
-  const int32_t centre_y = static_cast<int32_t>(tile_y) * 256 + 128;
-  constexpr int32_t kNear =
-      1 << 15;  // 128 pixels; only with LAPILLI_KEEP=triangles one may lie further from its bounds
-  if (std::abs(p.x - centre_x) > kNear || std::abs(p.y - centre_y) > kNear) return false;
-  const auto extent = [](int32_t d) { return static_cast<uint32_t>(d + SmallTriangle::kMostExtent); };
-  const uint32_t extents = extent(q.x - p.x) | extent(q.y - p.y) | extent(r.x - p.x) | extent(r.y - p.y) |
-                           extent(r.x - q.x) | extent(r.y - q.y);
-  if (extents >= 2 * SmallTriangle::kMostExtent) return false;
-  const auto set_edge = [&](int e, const BinVertex& from, const BinVertex& to) {
-    const int32_t dx = to.x - from.x, dy = to.y - from.y;
-    out.dx[e] = dx;
-    out.dy[e] = dy;
-    out.c[e] = dx * (centre_y - from.y) - dy * (centre_x - from.x);
-    out.bias[e] = dy < 0 || (dy == 0 && dx > 0) ? 0 : -1;
-  };
-  set_edge(0, q, r);
-  set_edge(1, r, p);
-  set_edge(2, p, q);
-  const BinRun& run = chunk.run_of(triangle);
-  const double inverse = 1.0 / (out.c[0] + out.c[1] + out.c[2]);
-  out.depth = {p.z, (q.z - p.z) * inverse, (r.z - p.z) * inverse, run.min_depth, run.max_depth};
-  if (run.depth_bias) out.depth = make_depth_plane(chunk, triangle, make_edge_functions(chunk, triangle));
-  return true;
-}
 
 const SmallTriangleFunctions& small_triangle_functions() {
   static constexpr PerTarget<const SmallTriangleFunctions> kTables = LAPILLI_PER_TARGET(kSmallTriangles);

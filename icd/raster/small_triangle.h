@@ -1,5 +1,5 @@
-// Triangles of at most 32 pixels a side: the pixels of a block are covered and depth tested in one go, with edge
-// functions that fit 32 bits.
+// Triangles of at most 32 pixels a side in a few blocks: set up many at a time, then covered and depth tested a block
+// in one go, with edge functions that fit 32 bits.
 #pragma once
 
 #include <vulkan/vulkan_core.h>
@@ -10,32 +10,58 @@
 
 namespace lapilli {
 
-// Edge functions as in TriangleSetup, but from the tile's first pixel: E_i(x, y) = 256 * (dx_i * y - dy_i * x) + c_i.
-struct SmallTriangle {
-  static constexpr int32_t kMostExtent = 1 << 13;  // 24.8 units
-  int32_t dx[3], dy[3], c[3];
-  int32_t bias[3];  // -1: a centre on the edge is outside (top-left rule), else 0
-  DepthPlane depth;
-};
-// False: too large.
-bool make_small_triangle(const BinChunk& chunk, const BinTriangle& triangle, uint32_t tile_x, uint32_t tile_y,
-                         SmallTriangle& out);
+// Of a tile's list. Arrays by the triangle's place in the group, [vertex] or [edge] first.
+struct TriangleGroup {
+  static constexpr uint32_t kMost = 16;
+  static constexpr int32_t kMostExtent = 1 << 13;  // of a small triangle, 24.8 units
+  static constexpr int32_t kMostBlocks = 4;        // that the bounds of a small triangle touch
 
-// What is done to a block: 64 values each, in the order of its lanes.
+  // As binned: 24.8 fixed point, z without bias, and BinTriangle's bounds.
+  alignas(64) int32_t x[3][kMost], y[3][kMost];
+  alignas(64) double z[3][kMost];
+  alignas(64) uint16_t bounds[kMost][4];
+
+  // Those that are small; the rest says something of them alone.
+  uint32_t small;
+  // In the tile, in pixels from its first one; x0 < x1, y0 < y1.
+  alignas(64) int32_t x0[kMost], y0[kMost], x1[kMost], y1[kMost];
+  // Edge functions as in TriangleSetup, E(x, y) = a * x + b * y + c for a pixel of the tile, but c is 1 less (`less`)
+  // where a centre on the edge is outside (top-left rule). a and b are 256 times the halves of `steps`.
+  alignas(64) int32_t a[3][kMost], b[3][kMost], c[3][kMost], less[3][kMost];
+  alignas(64) uint32_t steps[3][kMost];
+  alignas(64) double k1[kMost], k2[kMost];  // DepthPlane
+
+  // Puts a triangle in place i.
+  void put(uint32_t i, const BinChunk& chunk, const BinTriangle& triangle) {
+    __builtin_memcpy(bounds[i], &triangle.x0, sizeof bounds[i]);
+    for (size_t v = 0; v < 3; ++v) {
+      const BinVertex& vertex = chunk.vertices[triangle.v[v]];
+      x[v][i] = vertex.x;
+      y[v][i] = vertex.y;
+      z[v][i] = vertex.z;
+    }
+  }
+};
+
+// What is done to a block, in the order of its lanes.
 struct SmallTarget {
-  float* depths = nullptr;      // null: no test
-  bool write_depth = false;     // of what passes
-  uint32_t* numbers = nullptr;  // null: nobody asks who is seen
+  float* depths = nullptr;   // 64; null: no test
+  bool write_depth = false;  // of what passes
+  double z0 = 0;             // DepthPlane, with bias
+  float min_depth = 0, max_depth = 1;
+  uint32_t* numbers = nullptr;  // 64; null: nobody asks who is seen
   uint32_t number = 0;          // of the triangle
 };
 struct SmallDrawn {
   uint64_t covered = 0, passed = 0;  // pixels
 };
-// The `pixels` of the block whose first pixel is (x, y), from the tile's.
-using DrawSmallTriangle = SmallDrawn(const SmallTriangle& triangle, int32_t x, int32_t y, uint64_t pixels,
+// The `pixels` of the block whose first pixel is (x, y), from the tile's, under triangle i.
+using DrawSmallTriangle = SmallDrawn(const TriangleGroup& group, uint32_t i, int32_t x, int32_t y, uint64_t pixels,
                                      const SmallTarget& target);
 struct SmallTriangleFunctions {
-  DrawSmallTriangle* draw[8];  // by VkCompareOp; with ALWAYS and no depths: coverage alone
+  // From what was put into the first `count` places. `tile`: what of it may be drawn to, from its first pixel.
+  void (*set_up)(TriangleGroup& group, uint32_t count, uint32_t tile_x, uint32_t tile_y, const PixelRect& tile);
+  DrawSmallTriangle* draw[8];  // by VkCompareOp; without depths: coverage alone
 };
 const SmallTriangleFunctions& small_triangle_functions();
 

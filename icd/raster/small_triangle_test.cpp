@@ -20,6 +20,13 @@ struct Block {
   alignas(64) uint32_t numbers[64];
 };
 
+// Puts the chunk's triangle into a group, among others that are not there.
+void set_up_alone(const BinChunk& chunk, uint32_t tile_x, uint32_t tile_y, uint32_t place, TriangleGroup& group) {
+  std::memset(&group, 0x55, sizeof group);
+  group.put(place, chunk, chunk.triangles[0]);
+  small_triangle_functions().set_up(group, place + 1, tile_x, tile_y, {0, 0, 64, 64});
+}
+
 void expect_block(const BinChunk& chunk, uint32_t column, uint32_t row, VkCompareOp compare, bool write,
                   const Block& before) {
   Block block = before;
@@ -45,15 +52,18 @@ void expect_block(const BinChunk& chunk, uint32_t column, uint32_t row, VkCompar
     if ((passed >> bit & 1) != 0) expected.numbers[bit] = 77;
   }
 
-  SmallTriangle small;
-  ASSERT_TRUE(make_small_triangle(chunk, triangle, kTileX, kTileY, small));
+  TriangleGroup small;
+  const uint32_t place = column + row;
+  set_up_alone(chunk, kTileX, kTileY, place, small);
+  ASSERT_EQ(small.small >> place & 1, 1u);
   DrawSmallTriangle* const draw = small_triangle_functions().draw[compare];
   const int32_t block_x = static_cast<int32_t>(column * 8), block_y = static_cast<int32_t>(row * 8);
-  const SmallDrawn drawn = draw(small, block_x, block_y, asked, {block.depths, write, block.numbers, 77});
+  const SmallDrawn drawn =
+      draw(small, place, block_x, block_y, asked, {block.depths, write, depth.plane.z0, 0, 1, block.numbers, 77});
   EXPECT_EQ(drawn.covered, covered & asked);
   EXPECT_EQ(drawn.passed, passed);
   EXPECT_EQ(std::memcmp(&block, &expected, sizeof block), 0);
-  const SmallDrawn alone = small_triangle_functions().draw[VK_COMPARE_OP_ALWAYS](small, block_x, block_y, kAllBits, {});
+  const SmallDrawn alone = draw(small, place, block_x, block_y, kAllBits, {});
   EXPECT_EQ(alone.covered, covered);
   EXPECT_EQ(alone.passed, covered);
 }
@@ -82,7 +92,7 @@ TEST(SmallTriangle, CoversAndTestsAsTheExactRules) {
     if (area == 0) continue;
     if (area < 0) std::swap(v[1], v[2]);
     for (const BinVertex& each : v) chunk.vertices.push_back(each);
-    chunk.triangles.push_back({{0, 1, 2}, 0, 0, 0, 1, 1});
+    chunk.triangles.push_back({{0, 1, 2}, 0, kTileX, kTileY, kTileX + 16, kTileY + 16});
     Block block;
     for (float& depth : block.depths) depth = 0.25f * static_cast<float>(between(0, 4));
     for (uint32_t& number : block.numbers) number = static_cast<uint32_t>(random());
@@ -97,19 +107,38 @@ TEST(SmallTriangle, CoversAndTestsAsTheExactRules) {
   }
 }
 
-TEST(SmallTriangle, RefusesWhatDoesNotFit32Bits) {
+TEST(SmallTriangle, IsWhatFits32BitsAndFewBlocks) {
+  const SimdTarget before = simd_target();
   BinChunk chunk;
   chunk.runs.push_back({});
-  for (const int32_t corner : {0, SmallTriangle::kMostExtent}) {
-    chunk.vertices.push_back({corner, 0, 0, 1, 0});
-  }
+  chunk.vertices.push_back({0, 0, 0, 1, 0});
+  chunk.vertices.push_back({});
   chunk.vertices.push_back({0, 100, 0, 1, 0});
   chunk.triangles.push_back({{0, 1, 2}, 0, 0, 0, 1, 1});
-  SmallTriangle small;
-  EXPECT_FALSE(make_small_triangle(chunk, chunk.triangles[0], 0, 0, small));
-  --chunk.vertices.data()[1].x;
-  EXPECT_TRUE(make_small_triangle(chunk, chunk.triangles[0], 0, 0, small));
-  EXPECT_FALSE(make_small_triangle(chunk, chunk.triangles[0], 1024, 0, small));
+  for (const SimdTarget target : supported_simd_targets()) {
+    ASSERT_TRUE(set_simd_target(target));
+    TriangleGroup group;
+    const auto is_small = [&](int32_t extent, uint32_t tile_x, uint16_t x1, uint16_t y1) {
+      chunk.vertices[1] = {extent, 0, 0, 1, 0};
+      chunk.triangles[0].x1 = x1;
+      chunk.triangles[0].y1 = y1;
+      set_up_alone(chunk, tile_x, 0, 5, group);
+      return (group.small >> 5 & 1) != 0;
+    };
+    EXPECT_TRUE(is_small(TriangleGroup::kMostExtent - 1, 0, 32, 8));
+    EXPECT_EQ(group.x0[5], 0);
+    EXPECT_EQ(group.x1[5], 32);
+    EXPECT_EQ(group.y1[5], 8);
+    EXPECT_FALSE(is_small(TriangleGroup::kMostExtent, 0, 32, 8));
+    EXPECT_FALSE(is_small(1000, 0, 33, 8));
+    EXPECT_TRUE(is_small(1000, 0, 16, 16));
+    EXPECT_FALSE(is_small(1000, 0, 16, 17));
+    EXPECT_FALSE(is_small(1000, 64, 32, 8));  // not in this tile
+    chunk.vertices[0].x = chunk.vertices[2].x = -140 * 256;
+    EXPECT_FALSE(is_small(-140 * 256 + 100, 0, 32, 8));
+    chunk.vertices[0].x = chunk.vertices[2].x = 0;
+  }
+  set_simd_target(before);
 }
 
 }  // namespace

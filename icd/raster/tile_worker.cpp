@@ -18,9 +18,6 @@ uint64_t depth_test_cost() {
   return uint64_t{kBatchLanes} * (op_info(Opcode::frag_depth).cost + op_info(Opcode::depth_test).cost);
 }
 
-// Small triangles in so many blocks at most are tested rather than judged.
-constexpr int32_t kMostSmallBlocks = 4;
-constexpr size_t kVerticesAhead = 8;        // triangles
 constexpr size_t kTrianglesPerLook = 1024;  // at the time limit
 constexpr DepthRange kAnyDepth = {-std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity()};
 
@@ -86,16 +83,17 @@ void TileWorker::draw_triangles(uint32_t tile, const BinSet& set) {
   }
   packer_.begin_tile(planes, tile_x_, tile_y_);
   list_triangles(tile, set);
-  for (size_t i = 0; i < listed_.size(); ++i) {
-    if (i + kVerticesAhead < listed_.size()) {
-      const auto& [chunk, index] = listed_[i + kVerticesAhead];
-      for (const uint16_t v : chunk->triangles[index].v) __builtin_prefetch(&chunk->vertices[v]);
+  for (size_t first = 0; first < listed_.size(); first += TriangleGroup::kMost) {
+    const size_t count = std::min<size_t>(listed_.size() - first, TriangleGroup::kMost);
+    set_up_group(first, count);
+    for (uint32_t place = 0; place < count; ++place) {
+      const auto& [chunk, index] = listed_[first + place];
+      const BinRun& run = chunk->run_of(chunk->triangles[index]);
+      if (&run != draw_.run) begin_draw(run);
+      triangle_ = {chunk, index, 0, nullptr, false};
+      (group_.small >> place & 1) != 0 ? draw_small(place) : draw_triangle();
     }
-    const auto& [chunk, index] = listed_[i];
-    const BinRun& run = chunk->run_of(chunk->triangles[index]);
-    if (&run != draw_.run) begin_draw(run);
-    draw_triangle(*chunk, index);
-    if (i % kTrianglesPerLook == 0 && pass_->limits->read_clock()) break;
+    if (first % kTrianglesPerLook == 0 && pass_->limits->read_clock()) break;
   }
   end_draw();
   resolve();
@@ -111,6 +109,20 @@ void TileWorker::list_triangles(uint32_t tile, const BinSet& set) {
       listed_.push_back({&chunk, index});
     }
   }
+}
+
+// Reads the next group's vertices ahead.
+void TileWorker::set_up_group(size_t first, size_t count) {
+  const size_t next_end = std::min(listed_.size(), first + 2 * TriangleGroup::kMost);
+  for (size_t i = first + TriangleGroup::kMost; i < next_end; ++i) {
+    const auto& [chunk, index] = listed_[i];
+    for (const uint16_t v : chunk->triangles[index].v) __builtin_prefetch(&chunk->vertices[v]);
+  }
+  for (uint32_t place = 0; place < count; ++place) {
+    const auto& [chunk, index] = listed_[first + place];
+    group_.put(place, *chunk, chunk->triangles[index]);
+  }
+  small_triangles_->set_up(group_, static_cast<uint32_t>(count), tile_x_, tile_y_, tile_rect_);
 }
 
 void TileWorker::begin_draw(const BinRun& run) {
@@ -171,20 +183,18 @@ void TileWorker::begin_depth() {
 
 // --- one triangle ---------------------------------------------------------------------------------------------------
 
-void TileWorker::draw_triangle(const BinChunk& chunk, uint32_t index) {
-  const BinTriangle& triangle = chunk.triangles[index];
+void TileWorker::draw_triangle() {
+  const BinTriangle& triangle = triangle_.chunk->triangles[triangle_.index];
   const int32_t x = static_cast<int32_t>(tile_x_);
   const int32_t y = static_cast<int32_t>(tile_y_);
   PixelRect rect = intersect({triangle.x0 - x, triangle.y0 - y, triangle.x1 - x, triangle.y1 - y}, tile_rect_);
   if (rect.empty()) return;
-  triangle_ = {&chunk, index, 0, nullptr, false};
-  if (draw_small(rect)) return;
   // A block is whole if all of it that can be seen is covered.
   if (rect.x0 == tile_rect_.x0) rect.x0 &= -kBlock;
   if (rect.y0 == tile_rect_.y0) rect.y0 &= -kBlock;
   if (rect.x1 == tile_rect_.x1) rect.x1 = (rect.x1 + kBlock - 1) & -kBlock;
   if (rect.y1 == tile_rect_.y1) rect.y1 = (rect.y1 + kBlock - 1) & -kBlock;
-  if (!coverage_.begin(make_edges(chunk, triangle), x, y, rect)) return;
+  if (!coverage_.begin(make_edges(*triangle_.chunk, triangle), x, y, rect)) return;
   const TileCoverage::Blocks blocks = coverage_.blocks();
   if (blocks.touched == 0) return;
   if (draw_.call->ledger != nullptr) count_covered(blocks);
@@ -205,27 +215,23 @@ void TileWorker::draw_triangle(const BinChunk& chunk, uint32_t index) {
   });
 }
 
-// Block by block, if the triangle is small. `rect`: its bounds in the tile, from the tile's origin.
-bool TileWorker::draw_small(const PixelRect& rect) {
-  const int32_t first_x = rect.x0 / kBlock, first_y = rect.y0 / kBlock;
-  const int32_t last_x = (rect.x1 - 1) / kBlock, last_y = (rect.y1 - 1) / kBlock;
-  if ((last_x - first_x + 1) * (last_y - first_y + 1) > kMostSmallBlocks) return false;
-  SmallTriangle small;
-  const BinTriangle& triangle = triangle_.chunk->triangles[triangle_.index];
-  if (!make_small_triangle(*triangle_.chunk, triangle, tile_x_, tile_y_, small)) return false;
-  DrawSmallTriangle* const draw = small_triangles_->draw[draw_.compare];
+// A small one, block by block.
+void TileWorker::draw_small(uint32_t place) {
+  const PixelRect rect = {group_.x0[place], group_.y0[place], group_.x1[place], group_.y1[place]};
   const bool deferred = draw_.shading == Shading::deferred;
-  for (int32_t row = first_y; row <= last_y; ++row) {
-    for (int32_t column = first_x; column <= last_x; ++column) {
-      const uint32_t block = bit_of(static_cast<uint32_t>(column), static_cast<uint32_t>(row));
-      SmallTarget target;
+  DrawSmallTriangle* const draw = small_triangles_->draw[draw_.compare];
+  SmallTarget target;
+  target.write_depth = draw_.depth_write;
+  target.z0 = draw_.early_depth ? depth_at_first_vertex(place) : 0;
+  target.min_depth = draw_.run->min_depth;
+  target.max_depth = draw_.run->max_depth;
+  target.number = visibility_.next_number();
+  for (int32_t y = rect.y0 & -kBlock; y < rect.y1; y += kBlock) {
+    for (int32_t x = rect.x0 & -kBlock; x < rect.x1; x += kBlock) {
+      const uint32_t block = bit_of(static_cast<uint32_t>(x / kBlock), static_cast<uint32_t>(y / kBlock));
       if (draw_.early_depth) target.depths = depths_of(block);
-      target.write_depth = draw_.depth_write;
-      if (deferred) {
-        target.numbers = visibility_.mixed_pixels(block);
-        target.number = triangle_.number == 0 ? visibility_.next_number() : triangle_.number;
-      }
-      const SmallDrawn drawn = draw(small, column * kBlock, row * kBlock, pixels_in_rect(rect, block), target);
+      if (deferred) target.numbers = visibility_.mixed_pixels(block);
+      const SmallDrawn drawn = draw(group_, place, x, y, pixels_in_rect(rect, block), target);
       if (draw_.tallies) {
         draw_.covered += static_cast<uint64_t>(std::popcount(drawn.covered));
         draw_.passed += static_cast<uint64_t>(std::popcount(drawn.passed));
@@ -236,7 +242,13 @@ bool TileWorker::draw_small(const PixelRect& rect) {
       if (draw_.shading == Shading::in_order) shade_in_order(block, drawn.passed);
     }
   }
-  return true;
+}
+
+// With bias.
+double TileWorker::depth_at_first_vertex(uint32_t place) const {
+  if (!draw_.run->depth_bias) return group_.z[0][place];
+  const BinTriangle& triangle = triangle_.chunk->triangles[triangle_.index];
+  return make_depth_plane(*triangle_.chunk, triangle, make_edge_functions(*triangle_.chunk, triangle)).z0;
 }
 
 void TileWorker::count_covered(const TileCoverage::Blocks& blocks) {

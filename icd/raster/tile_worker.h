@@ -68,8 +68,10 @@ class TileWorker {
   void end_draw();
   void report_draw();
   void begin_depth();
-  void draw_triangle(const BinChunk& chunk, uint32_t index);
-  bool draw_small(const PixelRect& rect);
+  void set_up_group(size_t first, size_t count);
+  void draw_triangle();
+  void draw_small(uint32_t place);
+  double depth_at_first_vertex(uint32_t place) const;
   void count_covered(const TileCoverage::Blocks& blocks);
   BlockVerdicts judge_blocks(const PixelRect& rect);
   void cover_blocks(uint64_t blocks);
@@ -109,6 +111,7 @@ class TileWorker {
   CurrentTriangle triangle_;
   TriangleSetup setup_;
   TriangleDepth triangle_depth_;
+  TriangleGroup group_;
   TileCoverage coverage_;
   BlockRanges triangle_ranges_;
   LaneTriangles lane_triangles_;
