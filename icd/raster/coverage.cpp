@@ -13,33 +13,7 @@ constexpr int32_t kTileSpan = kTileSize - 1;
 constexpr int32_t kBlockSpan = kBlockSize - 1;
 constexpr int32_t kBlock = static_cast<int32_t>(kBlockSize);
 
-// [i]: the bits with a coordinate below i.
-using PrefixMasks = std::array<uint64_t, kBlockSize + 1>;
-constexpr PrefixMasks prefix_masks(uint32_t (*coordinate)(uint32_t)) {
-  PrefixMasks masks{};
-  for (uint32_t i = 0; i <= kBlockSize; ++i) {
-    for (uint32_t bit = 0; bit < 64; ++bit) {
-      if (coordinate(bit) < i) masks[i] |= uint64_t{1} << bit;
-    }
-  }
-  return masks;
-}
-constexpr PrefixMasks kColumnsBelow = prefix_masks(column_of_bit);
-constexpr PrefixMasks kRowsBelow = prefix_masks(row_of_bit);
-
-// Bits in [x0, x1) x [y0, y1).
-uint64_t bits_in(int32_t x0, int32_t y0, int32_t x1, int32_t y1) {
-  const auto clamp = [](int32_t v) { return static_cast<size_t>(std::clamp(v, 0, kBlock)); };
-  return kColumnsBelow[clamp(x1)] & ~kColumnsBelow[clamp(x0)] & kRowsBelow[clamp(y1)] & ~kRowsBelow[clamp(y0)];
-}
-
 }  // namespace
-
-uint64_t pixels_in_rect(const PixelRect& rect, uint32_t block) {
-  const int32_t x = static_cast<int32_t>(column_of_bit(block)) * kBlock;
-  const int32_t y = static_cast<int32_t>(row_of_bit(block)) * kBlock;
-  return bits_in(rect.x0 - x, rect.y0 - y, rect.x1 - x, rect.y1 - y);
-}
 
 bool TileCoverage::begin(const CoverageEdges& edges, int32_t tile_x, int32_t tile_y, const PixelRect& bounds) {
   if (bounds.empty()) return false;

@@ -2,6 +2,8 @@
 // (geometry/bins.h).
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 
@@ -27,8 +29,32 @@ void for_each_bit(uint64_t word, Body&& body) {
   for (; word != 0; word &= word - 1) body(static_cast<uint32_t>(std::countr_zero(word)));
 }
 
+// [i]: the bits with a coordinate below i.
+using PrefixMasks = std::array<uint64_t, kBlockSize + 1>;
+constexpr PrefixMasks prefix_masks(uint32_t (*coordinate)(uint32_t)) {
+  PrefixMasks masks{};
+  for (uint32_t i = 0; i <= kBlockSize; ++i) {
+    for (uint32_t bit = 0; bit < 64; ++bit) {
+      if (coordinate(bit) < i) masks[i] |= uint64_t{1} << bit;
+    }
+  }
+  return masks;
+}
+inline constexpr PrefixMasks kColumnsBelow = prefix_masks(column_of_bit);
+inline constexpr PrefixMasks kRowsBelow = prefix_masks(row_of_bit);
+
+// Bits in [x0, x1) x [y0, y1).
+inline uint64_t bits_in(int32_t x0, int32_t y0, int32_t x1, int32_t y1) {
+  const auto clamp = [](int32_t v) { return static_cast<size_t>(std::clamp(v, 0, static_cast<int32_t>(kBlockSize))); };
+  return kColumnsBelow[clamp(x1)] & ~kColumnsBelow[clamp(x0)] & kRowsBelow[clamp(y1)] & ~kRowsBelow[clamp(y0)];
+}
+
 // Pixels of the block with this bit that lie in `rect`, which is in pixels from the tile's origin.
-uint64_t pixels_in_rect(const PixelRect& rect, uint32_t block);
+inline uint64_t pixels_in_rect(const PixelRect& rect, uint32_t block) {
+  const int32_t x = static_cast<int32_t>(column_of_bit(block) * kBlockSize);
+  const int32_t y = static_cast<int32_t>(row_of_bit(block) * kBlockSize);
+  return bits_in(rect.x0 - x, rect.y0 - y, rect.x1 - x, rect.y1 - y);
+}
 
 // What is left of a triangle's edges in one tile. Values of an edge that crosses the tile are at most
 // 63 * (|a| + |b|) < 2^31 in magnitude there.

@@ -3,6 +3,7 @@
 
 #include "base/simd_dispatch.h"
 #include "base/simd_targets.h"
+#include "raster/coverage.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/small_triangle.cpp"
@@ -30,8 +31,6 @@ HWY_INLINE M set_up_edges(TriangleGroup& group, uint32_t i, I centre_x, I centre
     const M owns = lt(dy, zero_i()) | (eq(dy, zero_i()) & gt(dx, zero_i()));
     const I less = select(owns, zero_i(), broadcast(-1));
     area2 = area2 + at_centre;
-    store(as_i(shift_left<8>(as_u(negate(dy)))), group.a[e] + i);
-    store(as_i(shift_left<8>(as_u(dx))), group.b[e] + i);
     store(at_centre + less, group.c[e] + i);
     store(less, group.less[e] + i);
     store((as_u(negate(dy)) & broadcast(0xFFFFu)) | shift_left<16>(as_u(dx)), group.steps[e] + i);
@@ -75,54 +74,50 @@ void set_up(TriangleGroup& group, uint32_t count, uint32_t tile_x, uint32_t tile
   group.small = static_cast<uint32_t>(small);
 }
 
-// Pixels from a block's first one as 16-bit numbers, x in the low half.
-alignas(64) constexpr uint32_t kLanePlaces[16] = {0x0'0000, 0x0'0001, 0x1'0000, 0x1'0001, 0x0'0002, 0x0'0003,
-                                                  0x1'0002, 0x1'0003, 0x0'0004, 0x0'0005, 0x1'0004, 0x1'0005,
-                                                  0x0'0006, 0x0'0007, 0x1'0006, 0x1'0007};
-
-// An edge function over a block.
-struct SmallEdge {
-  I first;
-  int32_t a, b;
-
-  HWY_INLINE SmallEdge(const TriangleGroup& group, uint32_t t, int e, int32_t x, int32_t y)
-      : a(group.a[e][t]), b(group.b[e][t]) {
-    const U from_first = as_u(dot_of_halves(broadcast(group.steps[e][t]), load<U>(kLanePlaces)));
-    first = as_i(shift_left<8>(from_first)) + broadcast(group.c[e][t] + a * x + b * y);
-  }
-  HWY_INLINE I vector(int i) const {
-    constexpr int kPerRow = 16 / kVectorLanes;
-    return first + broadcast(a * (i % kPerRow * (kVectorLanes / 2)) + b * (i / kPerRow * 2));
-  }
+// From a block's first pixel, as 16-bit numbers: x in the low half.
+struct BlockPlaces {
+  alignas(64) uint32_t of[kLanes];
 };
+constexpr BlockPlaces kPlaces = [] {
+  BlockPlaces places{};
+  for (uint32_t bit = 0; bit < 64; ++bit) places.of[bit] = column_of_bit(bit) | row_of_bit(bit) << 16;
+  return places;
+}();
 
+// An edge function at pixels of the tile.
+HWY_INLINE I edge_at(const TriangleGroup& group, uint32_t t, int e, U places) {
+  return as_i(shift_left<8>(as_u(dot_of_halves(broadcast(group.steps[e][t]), places)))) + broadcast(group.c[e][t]);
+}
+
+// With few branches: which rows a small triangle reaches, and whether it is seen, nobody could predict.
 template <int kCompare>
-SmallDrawn draw(const TriangleGroup& group, uint32_t t, int32_t x, int32_t y, uint64_t pixels,
+SmallDrawn draw(const TriangleGroup& group, uint32_t t, uint32_t x, uint32_t y, uint64_t pixels,
                 const SmallTarget& target) {
-  const SmallEdge edge0(group, t, 0, x, y), edge1(group, t, 1, x, y), edge2(group, t, 2, x, y);
-  const I less1 = broadcast(group.less[1][t]), less2 = broadcast(group.less[2][t]);
+  const U first = broadcast(x | y << 16);
   const DepthPlane plane = {target.z0, group.k1[t], group.k2[t], target.min_depth, target.max_depth};
+  const int first_vector = __builtin_ctzll(pixels) / kVectorLanes;
+  const int last_vector = (63 - __builtin_clzll(pixels)) / kVectorLanes;
   SmallDrawn drawn;
-  for (int i = 0; i < kVectorsPerBatch; ++i) {
+  for (int i = first_vector; i <= last_vector; ++i) {
     const int at = i * kVectorLanes;
-    const uint64_t bits = pixels >> at & ((uint64_t{1} << kVectorLanes) - 1);
-    if (bits == 0) continue;
-    const I e1 = edge1.vector(i), e2 = edge2.vector(i);
-    const uint64_t covered = bits & ~bits_of(lt(edge0.vector(i) | e1 | e2, zero_i()));
-    if (covered == 0) continue;
-    drawn.covered |= covered << at;
-    uint64_t passed = covered;
+    if (kVectorLanes < 16 && (pixels >> at & ((uint64_t{1} << kVectorLanes) - 1)) == 0) continue;
+    const U places = load<U>(kPlaces.of + at) + first;
+    const I e1 = edge_at(group, t, 1, places), e2 = edge_at(group, t, 2, places);
+    const M outside = lt(edge_at(group, t, 0, places) | e1 | e2, zero_i());
+    M passed = and_not(outside, mask_of(pixels, i));
+    drawn.covered |= bits_of(passed) << at;
     if (target.depths != nullptr) {
-      const F z = depth_at(to_double(e1 - less1), to_double(e2 - less2), plane);
+      const D exact1 = to_double(e1 - broadcast(group.less[1][t]));
+      const D exact2 = to_double(e2 - broadcast(group.less[2][t]));
+      const F z = depth_at(exact1, exact2, plane);
       const F stored = load<F>(target.depths + at);
-      passed &= bits_of(compare_depth<kCompare>(z, stored));
-      if (passed == 0) continue;
-      if (target.write_depth) store(select(mask_of(passed, 0), canonical(z), stored), target.depths + at);
+      passed = passed & compare_depth<kCompare>(z, stored);
+      if (target.write_depth) store(select(passed, canonical(z), stored), target.depths + at);
     }
-    drawn.passed |= passed << at;
+    drawn.passed |= bits_of(passed) << at;
     if (target.numbers == nullptr) continue;
     uint32_t* const numbers = target.numbers + at;
-    store(select(mask_of(passed, 0), broadcast(target.number), load<U>(numbers)), numbers);
+    store(select(passed, broadcast(target.number), load<U>(numbers)), numbers);
   }
   return drawn;
 }

@@ -25,9 +25,10 @@ struct TriangleGroup {
   uint32_t small;
   // In the tile, in pixels from its first one; x0 < x1, y0 < y1.
   alignas(64) int32_t x0[kMost], y0[kMost], x1[kMost], y1[kMost];
-  // Edge functions as in TriangleSetup, E(x, y) = a * x + b * y + c for a pixel of the tile, but c is 1 less (`less`)
-  // where a centre on the edge is outside (top-left rule). a and b are 256 times the halves of `steps`.
-  alignas(64) int32_t a[3][kMost], b[3][kMost], c[3][kMost], less[3][kMost];
+  // Edge functions as in TriangleSetup for a pixel of the tile: E(x, y) = 256 * (steps · (x, y)) + c, with the steps as
+  // signed halves, the first one in the low half; c is 1 less (`less` is -1, else 0) where a centre on the edge is
+  // outside (top-left rule).
+  alignas(64) int32_t c[3][kMost], less[3][kMost];
   alignas(64) uint32_t steps[3][kMost];
   alignas(64) double k1[kMost], k2[kMost];  // DepthPlane
 
@@ -55,8 +56,8 @@ struct SmallTarget {
 struct SmallDrawn {
   uint64_t covered = 0, passed = 0;  // pixels
 };
-// The `pixels` of the block whose first pixel is (x, y), from the tile's, under triangle i.
-using DrawSmallTriangle = SmallDrawn(const TriangleGroup& group, uint32_t i, int32_t x, int32_t y, uint64_t pixels,
+// The `pixels` (not 0) of the block whose first pixel is (x, y), from the tile's, under triangle i.
+using DrawSmallTriangle = SmallDrawn(const TriangleGroup& group, uint32_t i, uint32_t x, uint32_t y, uint64_t pixels,
                                      const SmallTarget& target);
 struct SmallTriangleFunctions {
   // From what was put into the first `count` places. `tile`: what of it may be drawn to, from its first pixel.

@@ -57,7 +57,7 @@ void expect_block(const BinChunk& chunk, uint32_t column, uint32_t row, VkCompar
   set_up_alone(chunk, kTileX, kTileY, place, small);
   ASSERT_EQ(small.small >> place & 1, 1u);
   DrawSmallTriangle* const draw = small_triangle_functions().draw[compare];
-  const int32_t block_x = static_cast<int32_t>(column * 8), block_y = static_cast<int32_t>(row * 8);
+  const uint32_t block_x = column * 8, block_y = row * 8;
   const SmallDrawn drawn =
       draw(small, place, block_x, block_y, asked, {block.depths, write, depth.plane.z0, 0, 1, block.numbers, 77});
   EXPECT_EQ(drawn.covered, covered & asked);

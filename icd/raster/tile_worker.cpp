@@ -226,9 +226,11 @@ void TileWorker::draw_small(uint32_t place) {
   target.min_depth = draw_.run->min_depth;
   target.max_depth = draw_.run->max_depth;
   target.number = visibility_.next_number();
-  for (int32_t y = rect.y0 & -kBlock; y < rect.y1; y += kBlock) {
-    for (int32_t x = rect.x0 & -kBlock; x < rect.x1; x += kBlock) {
-      const uint32_t block = bit_of(static_cast<uint32_t>(x / kBlock), static_cast<uint32_t>(y / kBlock));
+  const uint32_t first_x = static_cast<uint32_t>(rect.x0) & -kBlockSize, end_x = static_cast<uint32_t>(rect.x1);
+  const uint32_t first_y = static_cast<uint32_t>(rect.y0) & -kBlockSize, end_y = static_cast<uint32_t>(rect.y1);
+  for (uint32_t y = first_y; y < end_y; y += kBlockSize) {
+    for (uint32_t x = first_x; x < end_x; x += kBlockSize) {
+      const uint32_t block = bit_of(x / kBlockSize, y / kBlockSize);
       if (draw_.early_depth) target.depths = depths_of(block);
       if (deferred) target.numbers = visibility_.mixed_pixels(block);
       const SmallDrawn drawn = draw(group_, place, x, y, pixels_in_rect(rect, block), target);
@@ -328,10 +330,8 @@ void TileWorker::shade_in_order(uint32_t block, uint64_t pixels) {
   packer_.add(*triangle_.shaded, block, pixels);
 }
 
-// The block's 64 depths, made if they are not there yet.
-float* TileWorker::depths_of(uint32_t block) {
+float* TileWorker::make_depths(uint32_t block) {
   const uint32_t owner = depth_.owner(block);
-  if (owner == TileDepth::kPlane) return depth_.plane(block);
   if (owner == TileDepth::kCleared) return depth_.fill(block);
   const TileTriangle& triangle = visibility_.triangle(owner);
   const TriangleSetup setup = make_triangle_setup(*triangle.chunk, triangle.chunk->triangles[triangle.index]);
@@ -357,19 +357,16 @@ void TileWorker::keep_pending_setups() {
   first_pending_ = setups_.made();
 }
 
-uint32_t TileWorker::number() {
-  if (triangle_.number == 0) {
-    const BinChunk& chunk = *triangle_.chunk;
-    for (const uint16_t v : chunk.triangles[triangle_.index].v) {
-      __builtin_prefetch(chunk.varyings.data() + chunk.vertices[v].varyings);
-    }
-    if (deferred_draws_.empty() || deferred_draws_.back().call != draw_.call) {
-      deferred_draws_.push_back({draw_.call, visibility_.next_number()});
-    }
-    triangle_.number =
-        visibility_.add({triangle_.chunk, triangle_.index, static_cast<uint32_t>(deferred_draws_.size() - 1), 0});
+uint32_t TileWorker::add_number() {
+  const BinChunk& chunk = *triangle_.chunk;
+  for (const uint16_t v : chunk.triangles[triangle_.index].v) {
+    __builtin_prefetch(chunk.varyings.data() + chunk.vertices[v].varyings);
   }
-  return triangle_.number;
+  if (deferred_draws_.empty() || deferred_draws_.back().call != draw_.call) {
+    deferred_draws_.push_back({draw_.call, visibility_.next_number()});
+  }
+  const uint32_t draw = static_cast<uint32_t>(deferred_draws_.size() - 1);
+  return triangle_.number = visibility_.add({triangle_.chunk, triangle_.index, draw, 0});
 }
 
 // --- the end of the tile --------------------------------------------------------------------------------------------

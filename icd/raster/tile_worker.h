@@ -78,10 +78,15 @@ class TileWorker {
   void draw_block(uint32_t block, uint64_t pixels, bool always);
   uint64_t test_depth(uint32_t block, uint64_t pixels);
   void shade_in_order(uint32_t block, uint64_t pixels);
-  float* depths_of(uint32_t block);
+  // The block's 64 depths, made if they are not there yet.
+  float* depths_of(uint32_t block) {
+    return depth_.owner(block) == TileDepth::kPlane ? depth_.plane(block) : make_depths(block);
+  }
+  float* make_depths(uint32_t block);
   const TriangleSetup& setup();
   void keep_pending_setups();
-  uint32_t number();
+  uint32_t number() { return triangle_.number != 0 ? triangle_.number : add_number(); }
+  uint32_t add_number();
   void store();
 
   void resolve();
