@@ -14,7 +14,7 @@ namespace lapilli {
 struct TriangleGroup {
   static constexpr uint32_t kMost = 16;
   static constexpr int32_t kMostExtent = 1 << 13;  // of a small triangle, 24.8 units
-  static constexpr int32_t kMostBlocks = 4;        // that the bounds of a small triangle touch
+  static constexpr int32_t kMostBlocks = 9;        // that the bounds of a small triangle touch
 
   // As binned: 24.8 fixed point, z without bias, and BinTriangle's bounds.
   alignas(64) int32_t x[3][kMost], y[3][kMost];

@@ -130,9 +130,8 @@ TEST(SmallTriangle, IsWhatFits32BitsAndFewBlocks) {
     EXPECT_EQ(group.x1[5], 32);
     EXPECT_EQ(group.y1[5], 8);
     EXPECT_FALSE(is_small(TriangleGroup::kMostExtent, 0, 32, 8));
-    EXPECT_FALSE(is_small(1000, 0, 33, 8));
-    EXPECT_TRUE(is_small(1000, 0, 16, 16));
-    EXPECT_FALSE(is_small(1000, 0, 16, 17));
+    EXPECT_TRUE(is_small(1000, 0, 24, 24));
+    EXPECT_FALSE(is_small(1000, 0, 24, 25));
     EXPECT_FALSE(is_small(1000, 64, 32, 8));  // not in this tile
     chunk.vertices[0].x = chunk.vertices[2].x = -140 * 256;
     EXPECT_FALSE(is_small(-140 * 256 + 100, 0, 32, 8));
