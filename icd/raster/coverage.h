@@ -29,6 +29,13 @@ void for_each_bit(uint64_t word, Body&& body) {
   for (; word != 0; word &= word - 1) body(static_cast<uint32_t>(std::countr_zero(word)));
 }
 
+// How many of live_quads()' bits are set.
+constexpr uint32_t count_quads(uint64_t quads) {
+  // Sums of four quads each, at most 4, in bytes and then all of them in the highest.
+  const uint64_t sums = (quads & 0x0101010101010101) + (quads >> 4 & 0x0101010101010101);
+  return static_cast<uint32_t>((sums * 0x0101010101010101) >> 56);
+}
+
 // [i]: the bits with a coordinate below i.
 using PrefixMasks = std::array<uint64_t, kBlockSize + 1>;
 constexpr PrefixMasks prefix_masks(uint32_t (*coordinate)(uint32_t)) {

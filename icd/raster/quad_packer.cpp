@@ -12,14 +12,7 @@ namespace {
 constexpr uint32_t kBlockQuadColumns = kBlockSize / 2;
 // From so many quads on, one triangle's in a block are a batch of their own: scalar coefficients and straight loads are
 // worth more than full lanes.
-constexpr uint64_t kQuadsWorthABatch = 12;
-
-// Whether they are kQuadsWorthABatch at least; `quads` has one bit for each of the 16.
-bool fill_a_batch(uint64_t quads) {
-  // Sums of four quads each, at most 4, in bytes and then all of them in the highest.
-  const uint64_t sums = (quads & 0x0101010101010101) + (quads >> 4 & 0x0101010101010101);
-  return (sums * 0x0101010101010101) >> 56 >= kQuadsWorthABatch;
-}
+constexpr uint32_t kQuadsWorthABatch = 12;
 
 typedef uint16_t EightQuads __attribute__((vector_size(16)));
 // From the block's first pixel and quad to its 16 quads.
@@ -70,7 +63,7 @@ void QuadPacker::end_tile() {
 
 void QuadPacker::add(const TriangleSetup& triangle, uint32_t block, uint64_t pixels) {
   const uint64_t quads = live_quads(pixels);
-  if (fill_a_batch(quads)) return add_block(triangle, block, pixels);
+  if (count_quads(quads) >= kQuadsWorthABatch) return add_block(triangle, block, pixels);
   for_each_bit(quads, [&](uint32_t lane) { add_quad(triangle, block, lane / 4, pixels >> lane & 0xF); });
 }
 

@@ -10,7 +10,7 @@ namespace {
 // A block with more triangles is taken apart quad by quad.
 constexpr int kMostPartsOfABlock = 4;
 // From so many quads of a draw on, a block with several triangles is a batch of its own where the program lets it be.
-constexpr int kQuadsWorthABatch = 6;
+constexpr uint32_t kQuadsWorthABatch = 6;
 
 constexpr size_t kVaryingsAhead = 8;  // triangles
 void prefetch_varyings(const TileTriangle& triangle) {
@@ -65,11 +65,20 @@ void TileWorker::collect_pending() {
     if (rest == 0) return;  // nobody is seen
     (rest == valid_[block] ? full : partly) |= uint64_t{1} << block;
     while (rest != 0) {
-      const uint32_t draw = visibility_.triangle(seen[std::countr_zero(rest)]).draw;
+      const uint32_t triangle = seen[std::countr_zero(rest)];
+      const uint32_t draw = visibility_.triangle(triangle).draw;
       const bool last = draw + 1 == deferred_draws_.size();
+      const uint32_t first = deferred_draws_[draw].first;
       const uint32_t end = last ? visibility_.next_number() : deferred_draws_[draw + 1].first;
-      const uint64_t pixels = functions.between(seen, deferred_draws_[draw].first, end) & rest;
-      if (!collect_lanes(block, pixels)) collect_quads(block, pixels);
+      const uint64_t pixels = functions.between(seen, first, end) & rest;
+      if (end - first == 1 || (functions.equal(seen, triangle) & pixels) == pixels) {
+        pending_.push_back({pixels, triangle, static_cast<uint8_t>(block), kManyQuads});
+      } else if (count_quads(live_quads(pixels)) >= kQuadsWorthABatch &&
+                 deferred_draws_[draw].call->state->programs->pixels_alone) {
+        pending_.push_back({pixels, triangle, static_cast<uint8_t>(block), kManyTriangles});
+      } else {
+        collect_quads(block, pixels);
+      }
       rest &= ~pixels;
     }
   });
@@ -77,17 +86,7 @@ void TileWorker::collect_pending() {
   storage_.fetch_colors(partly);
 }
 
-// Pixels of one draw in a block: whether they are worth a batch of the block, in which each has a triangle of its own.
-bool TileWorker::collect_lanes(uint32_t block, uint64_t pixels) {
-  const uint32_t* const seen = visibility_.pixels(block);
-  const uint32_t first = seen[std::countr_zero(pixels)];
-  if (!deferred_draws_[visibility_.triangle(first).draw].call->state->programs->pixels_alone) return false;
-  if (std::popcount(live_quads(pixels)) < kQuadsWorthABatch) return false;
-  if ((lane_number_functions().equal(seen, first) & pixels) == pixels) return false;
-  pending_.push_back({pixels, first, static_cast<uint8_t>(block), kManyTriangles});
-  return true;
-}
-
+// Pixels of one draw, quad by quad.
 void TileWorker::collect_quads(uint32_t block, uint64_t rest) {
   const uint32_t* const seen = visibility_.pixels(block);
   for (int part = 0; part < kMostPartsOfABlock && rest != 0; ++part) {

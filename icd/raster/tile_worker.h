@@ -91,7 +91,6 @@ class TileWorker {
 
   void resolve();
   void collect_pending();
-  bool collect_lanes(uint32_t block, uint64_t pixels);
   void collect_quads(uint32_t block, uint64_t pixels);
   void shade(const DrawCall& draw, std::span<const Pending> pending);
 

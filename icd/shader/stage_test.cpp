@@ -230,6 +230,18 @@ TEST_F(Stage, DeferrableIfNothingButTheLastColourCanBeSeen) {
   EXPECT_FALSE(code.deferrable || code.writes_color);
 }
 
+TEST_F(Stage, PixelsStandAloneUnlessTheProgramLooksAtOtherLanes) {
+  make();
+  EXPECT_FALSE(code.deferrable || code.pixels_alone);
+  formats[1] = VK_FORMAT_UNDEFINED;  // the shader does not write it
+  make();
+  EXPECT_TRUE(code.deferrable && code.pixels_alone);
+  formats[2] = VK_FORMAT_UNDEFINED;
+  make(shaders::kTextureFrag);
+  EXPECT_TRUE(code.deferrable);
+  EXPECT_FALSE(code.pixels_alone);
+}
+
 // Each fragment's store has to happen, hidden later or not; the depth test comes after it.
 TEST_F(Stage, StoresAreNotDeferred) {
   slots.push_back({1, 4, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_ALL, 40, 1, -1});
