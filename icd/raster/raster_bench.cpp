@@ -3,7 +3,10 @@
 
 #include <cmath>
 
+#include "base/simd_dispatch.h"
+#include "raster/coverage.h"
 #include "raster/scene_fixture.h"
+#include "raster/small_triangle.h"
 
 namespace lapilli {
 namespace {
@@ -115,6 +118,40 @@ void draws(benchmark::State& state) {
       benchmark::Counter(10000, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(draws)->Unit(benchmark::kMillisecond);
+
+// 16 triangles of some pixels in one block, by SimdTarget: what they cost before anything is shaded.
+void small_triangles(benchmark::State& state) {
+  const SimdTarget before = simd_target();
+  if (!set_simd_target(static_cast<SimdTarget>(state.range(0)))) return state.SkipWithError("not on this machine");
+  BinChunk chunk;
+  chunk.runs.push_back({});
+  for (int32_t i = 0; i < 16; ++i) {
+    const int32_t x = 256 * (i % 4) + 60, y = 256 * (i / 4) + 40;
+    const uint16_t first = static_cast<uint16_t>(3 * i);
+    for (const auto& [dx, dy] : {std::pair{0, 0}, {900, 100}, {200, 800}}) {
+      chunk.vertices.push_back({x + dx, y + dy, 0.5 - 0.01 * i, 1, 0});
+    }
+    chunk.triangles.push_back(
+        {{first, static_cast<uint16_t>(first + 1), static_cast<uint16_t>(first + 2)}, 0, 0, 0, 8, 8});
+  }
+  const SmallTriangleFunctions& functions = small_triangle_functions();
+  TriangleGroup group;
+  alignas(64) float depths[64];
+  alignas(64) uint32_t numbers[64];
+  for (auto _ : state) {
+    std::fill_n(depths, 64, 1.0f);
+    for (uint32_t i = 0; i < 16; ++i) group.put(i, chunk, chunk.triangles[i]);
+    functions.set_up(group, 16, 0, 0, {0, 0, 64, 64});
+    for (uint32_t i = 0; i < 16; ++i) {
+      const SmallTarget target = {depths, true, group.z[0][i], 0, 1, numbers, i};
+      const uint64_t pixels = pixels_in_rect({group.x0[i], group.y0[i], group.x1[i], group.y1[i]}, 0);
+      benchmark::DoNotOptimize(functions.draw[VK_COMPARE_OP_LESS](group, i, 0, 0, pixels, target));
+    }
+  }
+  state.SetItemsProcessed(16 * state.iterations());
+  set_simd_target(before);
+}
+BENCHMARK(small_triangles)->DenseRange(0, 2);
 
 }  // namespace
 }  // namespace lapilli
