@@ -5,6 +5,7 @@
 namespace lapilli {
 
 void optimize(Code& code, SimdTarget target) {
+  flatten(code);
   simplify(code, target);
   remove_dead_code(code);
   if (!keeps(Removal::uniforms)) split_once(code);

@@ -13,6 +13,9 @@ namespace lapilli {
 // All of the passes below, up to scheduling; split_once unless LAPILLI_KEEP names uniforms.
 void optimize(Code& code, SimdTarget target);
 
+// Leaves out branches to the next block, and computes both sides of short ifs in all lanes, to choose from.
+void flatten(Code& code);
+
 // Constant folding, forwarding of copies, algebra that keeps every bit, common subexpressions within a block, stores to
 // variables that are overwritten. What became superfluous stays until remove_dead_code.
 void simplify(Code& code, SimdTarget target);

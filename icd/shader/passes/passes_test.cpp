@@ -133,6 +133,51 @@ TEST(Simplify, DecidesConstantBranches) {
   EXPECT_EQ(code.instructions[0].imm, no);
 }
 
+// if (lane_index < 7) v = f(lane_index) else v = 3; by way of a block that nothing else leads to. RandomPrograms
+// compares what becomes of such programs.
+Code short_if(Opcode f, bool stores = false) {
+  Code code;
+  code.add_resource({});
+  const Reg lane = code.emit(Opcode::builtin, kNoReg, kNoReg, kNoReg, static_cast<uint32_t>(BuiltIn::lane_index));
+  const Reg v = code.new_variable();
+  const uint32_t next = code.new_mask(), yes = code.new_mask(), no = code.new_mask(), both = code.new_mask();
+  uint32_t behind = code.new_label();
+  const auto enter = [&](uint32_t mask) {
+    code.place_label(behind);
+    behind = code.new_label();
+    code.emit_void(Opcode::enter, kNoReg, kNoReg, kNoReg, mask, behind);
+  };
+  code.emit_void(Opcode::branch, kNoReg, kNoReg, kNoReg, next);
+  enter(next);
+  code.emit_void(Opcode::branch_if, code.emit(Opcode::ult, lane, code.constant(7)), kNoReg, kNoReg, yes, no);
+  enter(yes);
+  if (stores) code.emit_void(Opcode::store_buffer, lane, lane);
+  code.emit_set(v, code.emit(f, lane));
+  code.emit_void(Opcode::branch, kNoReg, kNoReg, kNoReg, both);
+  enter(no);
+  code.emit_set(v, code.constant(3));
+  code.emit_void(Opcode::branch, kNoReg, kNoReg, kNoReg, both);
+  enter(both);
+  output(code, v);
+  code.place_label(behind);
+  return code;
+}
+
+TEST(Flatten, ChoosesFromTheSidesOfAShortIf) {
+  const Code code = finished(short_if(Opcode::bit_count));
+  EXPECT_EQ(count(code, Opcode::enter) + count(code, Opcode::branch) + count(code, Opcode::branch_if), 0u)
+      << disassemble(code);
+  EXPECT_EQ(count(code, Opcode::select), 1u);
+}
+
+TEST(Flatten, LeavesWhatIsDearOrHasEffects) {
+  for (const Code& code : {finished(short_if(Opcode::fasinh)), finished(short_if(Opcode::bit_count, true))}) {
+    EXPECT_EQ(count(code, Opcode::branch_if), 1u);
+    EXPECT_EQ(count(code, Opcode::enter), 3u) << disassemble(code);  // not of the block that simply comes next
+    EXPECT_EQ(count(code, Opcode::select), 0u);
+  }
+}
+
 TEST(DeadCode, RemovesAndTrims) {
   Code code;
   const Reg l1 = push(code), l2 = push(code, 1);
