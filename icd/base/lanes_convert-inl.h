@@ -45,7 +45,24 @@ HWY_API F to_float(U a) {
 #endif
 }
 
-// Byte kByte of every lane over 255, correctly rounded.
+// Byte kByte of every lane over 255, correctly rounded; first over kByteScale, which is a power of two.
+#if HWY_TARGET == HWY_AVX3
+// 1/255 is 0x0.01010101…: the byte four times over is its quotient's first 32 bits. A byte of n bits leaves itself
+// behind the 24 that a float holds, which is half a unit at least, and the true quotient goes on: always up.
+inline constexpr float kByteScale = 0x1p-32f;
+template <int kByte>
+HWY_API F scaled_byte_over_255(U a) {
+  constexpr int b = kByte * 0x01010101;
+  const __m512i four_times = _mm512_set4_epi32(b + 0x0C0C0C0C, b + 0x08080808, b + 0x04040404, b);
+  constexpr int kUp = _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC;
+  return F{_mm512_cvt_roundepu32_ps(_mm512_shuffle_epi8(a.raw, four_times), kUp)};
+}
+template <int kByte>
+HWY_API F byte_over_255(U a) {
+  return scaled_byte_over_255<kByte>(a) * broadcast(kByteScale);
+}
+#else
+inline constexpr float kByteScale = 1;
 template <int kByte>
 HWY_API F byte_over_255(U a) {
   // 1/255 as two floats. The upper one has 9 bits, so that its product with a byte is exact and the sum is rounded
@@ -53,6 +70,11 @@ HWY_API F byte_over_255(U a) {
   const F code = to_float(as_i(byte_of<kByte>(a)));
   return fma_exact(code, broadcast(0x1.01p-8f), code * broadcast(0x1.010102p-24f));
 }
+template <int kByte>
+HWY_API F scaled_byte_over_255(U a) {
+  return byte_over_255<kByte>(a);
+}
+#endif
 
 HWY_API D to_double(U a) { return to_double(as_i(a ^ broadcast(0x80000000u))) + broadcast(2147483648.0); }
 

@@ -112,8 +112,6 @@ void write_swizzled(const TextureView& view, const Registers& texels, uint64_t l
   }
 }
 
-HWY_API F read_at(const float* base, U byte_offsets) { return as_f(gather32(base, byte_offsets, all_lanes())); }
-
 void lod_from_derivatives(const TextureView& view, const SamplerState& sampler, const float* u, const float* v,
                           float* lod) {
   const float width = sampler.unnormalized ? 1.0f : static_cast<float>(view.levels[0].width);
@@ -121,13 +119,13 @@ void lod_from_derivatives(const TextureView& view, const SamplerState& sampler, 
   // One lane for each quad.
   alignas(64) float result[kQuads];
   for (int quad = 0; quad < kQuads; quad += kVectorLanes) {
-    const U at = shift_left<4>(lane_numbers() + broadcast(static_cast<uint32_t>(quad)));  // bytes
-    const F u0 = read_at(u, at);
-    const F v0 = read_at(v, at);
-    const F du_dx = (read_at(u + 1, at) - u0) * broadcast(width);
-    const F dv_dx = (read_at(v + 1, at) - v0) * broadcast(height);
-    const F du_dy = (read_at(u + 2, at) - u0) * broadcast(width);
-    const F dv_dy = (read_at(v + 2, at) - v0) * broadcast(height);
+    U us[4], vs[4];  // of the quads' first, right, lower and last lanes
+    load_interleaved<4>(u + 4 * quad, us);
+    load_interleaved<4>(v + 4 * quad, vs);
+    const F du_dx = (as_f(us[1]) - as_f(us[0])) * broadcast(width);
+    const F dv_dx = (as_f(vs[1]) - as_f(vs[0])) * broadcast(height);
+    const F du_dy = (as_f(us[2]) - as_f(us[0])) * broadcast(width);
+    const F dv_dy = (as_f(vs[2]) - as_f(vs[0])) * broadcast(height);
     const F x_squared = fma(du_dx, du_dx, dv_dx * dv_dx);
     const F y_squared = fma(du_dy, du_dy, dv_dy * dv_dy);
     const F squared = max(x_squared, y_squared);
@@ -202,7 +200,9 @@ void read_mixed(const TextureView& view, LevelFunction function, const LevelJob&
   const uint64_t between = lanes & plan.between;
   if (between == 0) return;
   Registers coarser;
-  for (auto& reg : coarser.lane) fill_lanes(zero_f(), ~uint64_t{0}, reg);
+  if (between != ~uint64_t{0}) {
+    for (auto& reg : coarser.lane) fill_lanes(zero_f(), ~uint64_t{0}, reg);
+  }
   read_levels(view, function, job, plan.coarse, between, coarser.rgba);
   for (int c = 0; c < 4; ++c) {
     for (int first = 0; first < kLanes; first += kVectorLanes) {
@@ -225,7 +225,7 @@ void sample_2d(const TextureView* view, const SamplerState* sampler, const Sampl
   const bool one_way = view->level_count == 1 && magnify == minify;
   if (one_way && view->identity_swizzle) return magnify(job, operands.lanes, rgba);
 
-  Registers texels = {};
+  Registers texels;  // rgba may be the registers of u and v
   if (one_way) {
     magnify(job, operands.lanes, texels.rgba);
   } else {

@@ -40,6 +40,13 @@ HWY_API U pack_unorm8(F c0, F c1, F c2, F c3) {
   return pack_bytes(float_to_unorm8(c0), float_to_unorm8(c1), float_to_unorm8(c2), float_to_unorm8(c3));
 }
 
+// The same for numbers that are in [-2, 2] anyway.
+HWY_API U pack_near_unorm8(F c0, F c1, F c2, F c3) {
+  const F codes = broadcast(255.0f);
+  return pack_bytes(nearest_in_range(c0 * codes), nearest_in_range(c1 * codes), nearest_in_range(c2 * codes),
+                    nearest_in_range(c3 * codes));
+}
+
 template <size_t kFormat>
 struct Texel {
   static constexpr const FormatInfo& kInfo = kFormats[kFormat];

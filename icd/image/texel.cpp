@@ -200,22 +200,24 @@ void store_quads(std::byte* plane, const QuadPlaces& places, uint64_t lanes, con
 // A blend equation in vectors.
 struct VectorFactor {
   F slope, offset;
-  HWY_INLINE explicit VectorFactor(const BlendEquation::Factor& f)
-      : slope(broadcast(f.slope)), offset(broadcast(f.offset)) {}
+  HWY_INLINE VectorFactor(const BlendEquation::Factor& f, float scale)
+      : slope(broadcast(f.slope * scale)), offset(broadcast(f.offset * scale)) {}
   HWY_INLINE F of(F alpha) const { return fma_exact(alpha, slope, offset); }
 };
+// The destination keeps its scale until it is multiplied by a factor, which has the inverse: that changes no bit, but
+// for factors below 2^-94, whose products are too small for a code.
 struct Blender {
   VectorFactor source_color, source_alpha, destination_color, destination_alpha;
   HWY_INLINE explicit Blender(const BlendEquation& e)
-      : source_color(e.source[0]),
-        source_alpha(e.source[1]),
-        destination_color(e.destination[0]),
-        destination_alpha(e.destination[1]) {}
+      : source_color(e.source[0], 1),
+        source_alpha(e.source[1], 1),
+        destination_color(e.destination[0], kByteScale),
+        destination_alpha(e.destination[1], kByteScale) {}
 
   template <class T>
   HWY_INLINE U blend(const Color& color, int vector, U old) const {
-    F d[4];
-    T::decode(&old, d);
+    const F d[4] = {scaled_byte_over_255<T::shift_of(0) / 8>(old), scaled_byte_over_255<T::shift_of(1) / 8>(old),
+                    scaled_byte_over_255<T::shift_of(2) / 8>(old), scaled_byte_over_255<T::shift_of(3) / 8>(old)};
     const F alpha = clamp01(color.load_component<3>(vector));
     const F by = source_color.of(alpha);
     const F destination_by = destination_color.of(alpha);
@@ -223,9 +225,8 @@ struct Blender {
                          fma(d[1], destination_by, clamp01(color.load_component<1>(vector)) * by),
                          fma(d[2], destination_by, clamp01(color.load_component<2>(vector)) * by),
                          fma(d[3], destination_alpha.of(alpha), alpha * source_alpha.of(alpha))};
-    U texel;
-    T::encode(result, &texel);
-    return texel;
+    return pack_near_unorm8(result[T::component_of_byte(0)], result[T::component_of_byte(1)],
+                            result[T::component_of_byte(2)], result[T::component_of_byte(3)]);
   }
   static HWY_INLINE F clamp01(F x) { return min(max(zero_f(), x), broadcast(1.0f)); }  // a NaN becomes 0
 };

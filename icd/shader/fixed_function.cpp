@@ -163,22 +163,6 @@ std::optional<uint32_t> blend_word(const VkPipelineColorBlendAttachmentState& st
 
 }  // namespace
 
-BlendEquation blend_equation(uint32_t word) {
-  constexpr BlendEquation::Factor kFactors[] = {{0, 0}, {0, 1}, {1, 0}, {-1, 1}};  // by BlendTerm
-  BlendEquation equation;
-  equation.components = word & 15;
-  for (uint32_t i = 0; i < 2; ++i) {
-    const uint32_t op = word >> (12 + 2 * i) & 3;
-    const float source_sign = op == VK_BLEND_OP_REVERSE_SUBTRACT ? -1.0f : 1.0f;
-    const float destination_sign = op == VK_BLEND_OP_SUBTRACT ? -1.0f : 1.0f;
-    const BlendEquation::Factor source = kFactors[word >> (4 + 4 * i) & 3];
-    const BlendEquation::Factor destination = kFactors[word >> (6 + 4 * i) & 3];
-    equation.source[i] = {source.slope * source_sign, source.offset * source_sign};
-    equation.destination[i] = {destination.slope * destination_sign, destination.offset * destination_sign};
-  }
-  return equation;
-}
-
 Result<void> emit_color(Code& code, uint32_t index, const VkPipelineColorBlendAttachmentState& state,
                         std::array<Reg, 4> source) {
   constexpr VkColorComponentFlags kAllComponents = 0xF;

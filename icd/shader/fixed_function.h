@@ -23,7 +23,17 @@ Result<void> emit_color(Code& code, uint32_t index, const VkPipelineColorBlendAt
 //   12, 14           two bits each: VkBlendOp of the colour and of alpha, up to REVERSE_SUBTRACT
 enum class BlendTerm : uint32_t { zero, one, source_alpha, one_minus_source_alpha };
 constexpr bool is_blend_word(uint32_t word) { return word >> 16 == 0 && (word >> 12 & 3) < 3 && word >> 14 < 3; }
-BlendEquation blend_equation(uint32_t word);
+inline BlendEquation blend_equation(uint32_t word) {
+  // By BlendTerm; the other half has the opposite sign.
+  static constexpr BlendEquation::Factor kFactors[2][4] = {{{0, 0}, {0, 1}, {1, 0}, {-1, 1}},
+                                                           {{-0.0f, -0.0f}, {-0.0f, -1}, {-1, -0.0f}, {1, -1}}};
+  const bool from_source[] = {(word >> 12 & 3) == VK_BLEND_OP_SUBTRACT, (word >> 14 & 3) == VK_BLEND_OP_SUBTRACT};
+  const bool from_destination[] = {(word >> 12 & 3) == VK_BLEND_OP_REVERSE_SUBTRACT,
+                                   (word >> 14 & 3) == VK_BLEND_OP_REVERSE_SUBTRACT};
+  return {{kFactors[from_destination[0]][word >> 4 & 3], kFactors[from_destination[1]][word >> 8 & 3]},
+          {kFactors[from_source[0]][word >> 6 & 3], kFactors[from_source[1]][word >> 10 & 3]},
+          word & 15};
+}
 
 constexpr bool writes_color(Opcode op) { return op == Opcode::store_color || op == Opcode::blend_color; }
 
