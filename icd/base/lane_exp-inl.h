@@ -208,8 +208,10 @@ HWY_API F pow(F x, F y) {
   return pow_special(x, y, value);
 }
 
+#if HWY_TARGET != HWY_AVX3
 // 1 / √x in two rounded steps
 HWY_API F inverse_sqrt(F x) { return broadcast(1.0f) / sqrt(x); }
+#endif
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lapilli

@@ -22,11 +22,12 @@
 //   divide, remainder, modulo integers, defined for every operand: lanes_integer-inl.h
 //   trunc floor ceil round_even  sqrt  abs  negate  copy_sign
 //   to_float, to_int, to_uint, to_double  conversions: lanes_convert-inl.h; pack_half, unpack_half
-//   mask_of(word, index)      lanes index * kVectorLanes … of a 64-lane word as M; bits_of(m) the other way, unshifted
+//   mask_of(word, index)      lanes index * kVectorLanes … of a 64-lane word as M; bits_of(m) the other way, unshifted;
+//                             bits_not_zero(u)
 //   gather32(base, byte_offsets, m)  32-bit values at base + offset (below 2^31, any alignment), 0 where m is not set
 //   gather_pairs(base, byte_offsets, first, second)  the words at base + offset and 4 bytes behind it, in all lanes
 //   byte_of<n>(u)             byte n of each lane
-//   pack_bytes(c0, c1, c2, c3)  bytes from integers up to 255; byte_over_255<n>(u) a byte as a fraction
+//   pack_bytes(c0, c1, c2, c3)  bytes from integers, as near as they come; byte_over_255<n>(u) a byte as a fraction
 //   swap_columns, swap_rows   of U, within each 2x2 quad of lanes
 //   canonical(f)              every NaN as 0x7FC00000
 //   first_lane(u)             lane 0 as a number
@@ -69,6 +70,14 @@ HWY_API F fma_exact(F a, F b, F c) {
 HWY_API F zero_f() { return broadcast(0.0f); }
 HWY_API I zero_i() { return broadcast(0); }
 HWY_API U zero_u() { return broadcast(0u); }
+// bits_of(ne(a, 0))
+HWY_API uint64_t bits_not_zero(U a) {
+#if HWY_TARGET == HWY_AVX3
+  return _mm512_test_epi32_mask(a.raw, a.raw);
+#else
+  return bits_of(~eq(a, zero_u()));
+#endif
+}
 HWY_API M all_lanes() { return eq(zero_u(), zero_u()); }
 HWY_API M no_lanes() { return ~all_lanes(); }
 

@@ -389,6 +389,23 @@ TEST(Lanes, RoundToIntegersKeepingTheSign) {
   check_rounding("sqrt", &MathRuns::sqrt, std::sqrt);
 }
 
+// All significands, with even and odd exponents; the scale is exact but near the ends, which the samples above reach.
+TEST(Lanes, RootsOfAllSignificandsAreCorrectlyRounded) {
+  constexpr Word kOne = 0x3F800000, kFour = 0x40800000, kBlock = 1 << 16;
+  std::vector<float> x(kBlock), root(kBlock), inverse(kBlock);
+  for (Word first = kOne; first < kFour; first += kBlock) {
+    for (Word i = 0; i < kBlock; ++i) x[i] = as_float(first + i);
+    math_runs(best_simd_target()).sqrt(x.data(), root.data(), kBlock);
+    math_runs(best_simd_target()).inverse_sqrt(x.data(), inverse.data(), kBlock);
+    Word wrong = 0;
+    for (Word i = 0; i < kBlock; ++i) {
+      const float expected = std::sqrt(x[i]);
+      wrong += root[i] != expected || inverse[i] != 1.0f / expected;
+    }
+    ASSERT_EQ(wrong, 0u) << std::hexfloat << as_float(first);
+  }
+}
+
 TEST(Lanes, MinAndMaxFollowTheirRule) {
   const std::vector<Word> xs = sample_words(64, 31);
   std::vector<float> x, y;
