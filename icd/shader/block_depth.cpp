@@ -23,12 +23,12 @@ struct BlockDepth {
       : edge1(triangle.a[0], triangle.b[0], triangle.c[0], x, y),
         edge2(triangle.a[1], triangle.b[1], triangle.c[1], x, y),
         plane(triangle.plane) {}
-  HWY_INLINE F vector(int i) const { return depth_at(edge1.vector(i), edge2.vector(i), plane); }
+  HWY_INLINE F next() { return depth_at(edge1.next(), edge2.next(), plane); }
 };
 
 void depth(const TriangleDepth& triangle, uint32_t x, uint32_t y, float* z) {
-  const BlockDepth block(triangle, x, y);
-  for (int i = 0; i < kVectorsPerBatch; ++i) store(block.vector(i), z + i * kVectorLanes);
+  BlockDepth block(triangle, x, y);
+  for (int i = 0; i < kVectorsPerBatch; ++i) store(block.next(), z + i * kVectorLanes);
 }
 
 struct RangeOfLanes {
@@ -56,11 +56,11 @@ DepthRange range(const float* stored) {
 template <int kCompare>
 uint64_t test(const TriangleDepth& triangle, uint32_t x, uint32_t y, uint64_t lanes, bool write, float* stored,
               DepthRange& range_after) {
-  const BlockDepth block(triangle, x, y);
+  BlockDepth block(triangle, x, y);
   F z[kVectorsPerBatch];
   uint64_t passed = 0;
   for (int i = 0; i < kVectorsPerBatch; ++i) {
-    z[i] = block.vector(i);
+    z[i] = block.next();
     passed |= bits_of(compare_depth<kCompare>(z[i], load<F>(stored + i * kVectorLanes))) << (i * kVectorLanes);
   }
   passed &= lanes;

@@ -31,6 +31,7 @@ ImmRoles imm_roles(Opcode opcode) {
     case Opcode::store_output:
       return {ImmRole::slot, ImmRole::none};
     case Opcode::interpolate:
+    case Opcode::interpolate_perspective:
     case Opcode::interpolate_flat:
       return {ImmRole::varying, ImmRole::none};
     case Opcode::depth_test:

@@ -267,6 +267,7 @@ class Verifier {
       case Opcode::fetch:
         return instruction.results <= 4 ? true : fail_here("wrong number of results");
       case Opcode::interpolate:
+      case Opcode::interpolate_perspective:
       case Opcode::interpolate_flat:
         return instruction.imm + instruction.results <= kMaxVaryingComponents ? true : fail_here("no such varying");
       case Opcode::depth_test:

@@ -284,26 +284,38 @@ void emit_fragment_prologue(LoweredShader& shader, Reg depth_reg, const Varyings
     return std::any_of(varyings.begin(), varyings.end(),
                        [&](const InterfaceComponent& each) { return each.interpolation == how; });
   };
-  const bool perspective = reads_w || uses(Interpolation::perspective);
-  Reg linear = kNoReg, corrected = kNoReg;
-  if (perspective || uses(Interpolation::linear)) linear = code.emit_n(Opcode::frag_linear, 2);
-  if (perspective) corrected = code.emit_n(Opcode::frag_perspective, 3, linear, linear + 1);
-  if (reads_w) code.emit_to(Opcode::mov, position->regs[3], corrected + 2);
-  for (uint32_t slot = 0; slot < varyings.size();) {
+  // Varyings in a row of slots and of registers are interpolated by one op.
+  const auto run_at = [&](uint32_t slot) {
     const InterfaceComponent& first = varyings[slot];
     uint32_t run = 1;
     while (slot + run < varyings.size() && run < kMostResults && varyings[slot + run].reg == first.reg + run &&
            varyings[slot + run].interpolation == first.interpolation)
       ++run;
-    const bool flat = first.interpolation == Interpolation::flat;
-    Instruction& instruction = append_to(code, flat ? Opcode::interpolate_flat : Opcode::interpolate, first.reg, run);
+    return run;
+  };
+  uint32_t perspective_runs = 0;
+  for (uint32_t slot = 0; slot < varyings.size(); slot += run_at(slot))
+    perspective_runs += varyings[slot].interpolation == Interpolation::perspective;
+  const bool fused = perspective_runs == 1 && !reads_w;
+  const bool perspective = reads_w || perspective_runs > 1;
+  Reg linear = kNoReg, corrected = kNoReg;
+  if (perspective || uses(Interpolation::linear)) linear = code.emit_n(Opcode::frag_linear, 2);
+  if (perspective) corrected = code.emit_n(Opcode::frag_perspective, 3, linear, linear + 1);
+  if (reads_w) code.emit_to(Opcode::mov, position->regs[3], corrected + 2);
+  for (uint32_t slot = 0, run; slot < varyings.size(); slot += run) {
+    run = run_at(slot);
+    const InterfaceComponent& first = varyings[slot];
+    const bool is_perspective = first.interpolation == Interpolation::perspective;
+    const Opcode op = first.interpolation == Interpolation::flat ? Opcode::interpolate_flat
+                      : fused && is_perspective                  ? Opcode::interpolate_perspective
+                                                                 : Opcode::interpolate;
+    Instruction& instruction = append_to(code, op, first.reg, run);
     instruction.imm = slot;
-    if (!flat) {
-      const Reg lambda = first.interpolation == Interpolation::linear ? linear : corrected;
+    if (op == Opcode::interpolate) {
+      const Reg lambda = is_perspective ? corrected : linear;
       instruction.a = lambda;
       instruction.b = lambda + 1;
     }
-    slot += run;
   }
 }
 

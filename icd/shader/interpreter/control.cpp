@@ -65,9 +65,7 @@ struct op_demote {
 // Ops that read a condition as a word of lanes.
 template <class Then>
 struct Condition {
-  static HWY_INLINE uint64_t bits(U condition, int index) {
-    return bits_of(ne(condition, zero_u())) << (index * kVectorLanes);
-  }
+  static HWY_INLINE uint64_t bits(U condition, int index) { return bits_not_zero(condition) << (index * kVectorLanes); }
 #if LAPILLI_TAIL_CALLS
   static void from_register(const Op* op, Frame* frame, LAPILLI_ACCUMULATOR) {
     const std::byte* const a = reg(frame, op->a);

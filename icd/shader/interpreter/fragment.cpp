@@ -12,6 +12,7 @@
 #include "shader/fixed_function.h"
 #include "shader/interpreter/handlers.h"
 #include "shader/interpreter/machine-inl.h"
+#include "shader/interpreter/perspective-inl.h"
 #include "shader/interpreter/planes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -25,17 +26,18 @@ typedef float QuadF __attribute__((vector_size(16)));
 
 HWY_INLINE void store_floats(const QuadF& floats, float* lanes) { std::memcpy(lanes, &floats, sizeof floats); }
 
+HWY_INLINE bool is_block_of_one(const FragmentBatch& batch) { return batch.one_triangle && batch.whole_block; }
+
 // Calls a Body with E_1 and E_2 of all lanes: lanes(e1, e2, triangle, to) for vectors of one triangle's block,
 // quad(e1, e2, triangle, to) for one quad. The edge functions are exact, however their parts are added.
 template <class Body>
 struct FromEdges {
   static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
-    const FragmentBatch& batch = *frame->fragments;
-    float* const d = reinterpret_cast<float*>(reg(frame, op->dst));
-    if (batch.one_triangle && batch.whole_block) {
-      block(*batch.triangle[0], batch.x[0], batch.y[0], d);
-      return op + 1;
-    }
+    of_batch(*frame->fragments, reinterpret_cast<float*>(reg(frame, op->dst)));
+    return op + 1;
+  }
+  static HWY_INLINE void of_batch(const FragmentBatch& batch, float* d) {
+    if (is_block_of_one(batch)) return block(*batch.triangle[0], batch.x[0], batch.y[0], d);
     for (int i = 0; i < kLanes / 4; ++i) {
       const TriangleSetup& t = *batch.triangle[i];
       const double x0 = batch.x[i], y0 = batch.y[i];
@@ -45,14 +47,11 @@ struct FromEdges {
       const QuadD e2 = x * t.edge_a[2] + (y * t.edge_b[2] + t.edge_c[2]);
       Body::quad(e1, e2, t, d + 4 * i);
     }
-    return op + 1;
   }
   static HWY_INLINE void block(const TriangleSetup& t, uint32_t x, uint32_t y, float* d) {
-    const BlockEdge edge1(t.edge_a[1], t.edge_b[1], t.edge_c[1], x, y);
-    const BlockEdge edge2(t.edge_a[2], t.edge_b[2], t.edge_c[2], x, y);
-    for (int i = 0; i < kVectorsPerBatch; ++i) {
-      Body::lanes(edge1.vector(i), edge2.vector(i), t, d + i * kVectorLanes);
-    }
+    BlockEdge edge1(t.edge_a[1], t.edge_b[1], t.edge_c[1], x, y);
+    BlockEdge edge2(t.edge_a[2], t.edge_b[2], t.edge_c[2], x, y);
+    for (int i = 0; i < kVectorsPerBatch; ++i) Body::lanes(edge1.next(), edge2.next(), t, d + i * kVectorLanes);
   }
 };
 
@@ -68,26 +67,27 @@ struct Linear {
     store_floats(__builtin_convertvector(e2 * t.inverse_area2, QuadF), d + kLanes);
   }
 };
-
 struct op_frag_linear {
   static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
-    const LaneTriangles* const triangles = frame->fragments->lane_triangles;
-    if (triangles == nullptr) return FromEdges<Linear>::run(op, frame);
-    float* const d = reinterpret_cast<float*>(reg(frame, op->dst));
+    of_batch(*frame->fragments, reinterpret_cast<float*>(reg(frame, op->dst)));
+    return op + 1;
+  }
+  static HWY_INLINE void of_batch(const FragmentBatch& batch, float* d) {
+    if (batch.lane_triangles == nullptr) return FromEdges<Linear>::of_batch(batch, d);
+    const LaneTriangles& triangles = *batch.lane_triangles;
     for (int i = 0; i < kVectorsPerBatch; ++i) {
       constexpr int kPerRow = 16 / kVectorLanes;
       const D x = load_d(kLaneX) + broadcast(static_cast<double>(i % kPerRow * (kVectorLanes / 2)));
       const D y = load_d(kLaneY) + broadcast(static_cast<double>(i / kPerRow * 2));
       const int lane = i * kVectorLanes;
-      const D inverse_area2 = of_lanes(*triangles, triangles->inverse_area2, lane);
+      const D inverse_area2 = of_lanes(triangles, triangles.inverse_area2, lane);
       for (int e = 0; e < 2; ++e) {
         const D edge =
-            x * of_lanes(*triangles, triangles->edge_a[e], lane) +
-            (y * of_lanes(*triangles, triangles->edge_b[e], lane) + of_lanes(*triangles, triangles->edge_c[e], lane));
+            x * of_lanes(triangles, triangles.edge_a[e], lane) +
+            (y * of_lanes(triangles, triangles.edge_b[e], lane) + of_lanes(triangles, triangles.edge_c[e], lane));
         store(to_float(edge * inverse_area2), d + e * kLanes + lane);
       }
     }
-    return op + 1;
   }
 };
 
@@ -108,86 +108,109 @@ using op_frag_depth = FromEdges<Depth>;
 // Quads of one vector, whose numbers come from many triangles.
 constexpr int kQuadsPerVector = kVectorLanes / 4;
 
-struct op_frag_perspective {
-  // The interpolated 1/w, and λ_i / w_i over it.
-  static HWY_INLINE void vector(F l1, F l2, F iw0, F iw1, F iw2, uint32_t* d) {
-    const F t0 = (broadcast(1.0f) - l1 - l2) * iw0;
-    const F t1 = l1 * iw1;
-    const F t2 = l2 * iw2;
-    const F sum = t0 + t1 + t2;
-    store(t1 / sum, d);
-    store(t2 / sum, d + kLanes);
-    store(sum, d + 2 * kLanes);
+HWY_INLINE InverseW inverse_w_of(const TriangleSetup& t) {
+  return {broadcast(t.inverse_w[0]), broadcast(t.inverse_w[1]), broadcast(t.inverse_w[2])};
+}
+// Of the lanes from `lane` on.
+HWY_INLINE InverseW inverse_w_of(const FragmentBatch& batch, int lane) {
+  if (batch.one_triangle) return inverse_w_of(*batch.triangle[0]);
+  if (const LaneTriangles* const t = batch.lane_triangles) {
+    return {of_lanes(*t, t->inverse_w[0], lane), of_lanes(*t, t->inverse_w[1], lane),
+            of_lanes(*t, t->inverse_w[2], lane)};
   }
+  const float* w[kQuadsPerVector];
+  for (int quad = 0; quad < kQuadsPerVector; ++quad) w[quad] = batch.triangle[lane / 4 + quad]->inverse_w;
+  return {spread_to_quads(w, 0), spread_to_quads(w, 1), spread_to_quads(w, 2)};
+}
+// Drawn without perspective, and covering the whole batch.
+HWY_INLINE bool is_affine(const TriangleSetup& t, uint64_t covered) {
+  return covered == ~uint64_t{0} && t.inverse_w[0] == 1 && t.inverse_w[1] == 1 && t.inverse_w[2] == 1;
+}
+
+struct op_frag_perspective {
   static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
-    const FragmentBatch& batch = *frame->fragments;
     const uint32_t* const a = reg_u(frame, op->a);
     const uint32_t* const b = reg_u(frame, op->b);
     uint32_t* const d = reg_out(frame, op->dst);
-    if (const LaneTriangles* const t = batch.lane_triangles) {
-      for (int i = 0; i < kLanes; i += kVectorLanes) {
-        vector(load<F>(a + i), load<F>(b + i), of_lanes(*t, t->inverse_w[0], i), of_lanes(*t, t->inverse_w[1], i),
-               of_lanes(*t, t->inverse_w[2], i), d + i);
-      }
-      return op + 1;
-    }
-    if (batch.one_triangle) {
-      const float* const w = batch.triangle[0]->inverse_w;
-      for (int i = 0; i < kLanes; i += kVectorLanes) {
-        vector(load<F>(a + i), load<F>(b + i), broadcast(w[0]), broadcast(w[1]), broadcast(w[2]), d + i);
-      }
-      return op + 1;
-    }
     for (int i = 0; i < kLanes; i += kVectorLanes) {
-      const float* w[kQuadsPerVector];
-      for (int quad = 0; quad < kQuadsPerVector; ++quad) w[quad] = batch.triangle[i / 4 + quad]->inverse_w;
-      vector(load<F>(a + i), load<F>(b + i), spread_to_quads(w, 0), spread_to_quads(w, 1), spread_to_quads(w, 2),
-             d + i);
+      const Corrected at = correct_perspective(load<F>(a + i), load<F>(b + i), inverse_w_of(*frame->fragments, i));
+      store(at.l1, d + i);
+      store(at.l2, d + kLanes + i);
+      store(at.inverse_w, d + 2 * kLanes + i);
     }
     return op + 1;
   }
 };
 
+// Varyings of one vector of lanes, from the coordinates there. `plane`: the first of one triangle's.
+HWY_INLINE void interpolate_one(const float* plane, uint32_t count, F l1, F l2, uint32_t* d) {
+  for (; count > 0; --count, plane += 3, d += kLanes) {
+    store(fma(l2, broadcast(plane[2]), fma(l1, broadcast(plane[1]), broadcast(plane[0]))), d);
+  }
+}
+HWY_INLINE void interpolate_lanes(const FragmentBatch& batch, int lane, const Op* op, F l1, F l2, uint32_t* d) {
+  if (batch.one_triangle) return interpolate_one(batch.triangle[0]->varyings + 3 * op->imm, op->c, l1, l2, d);
+  if (const LaneTriangles* const t = batch.lane_triangles) {
+    for (uint32_t k = op->imm; k < op->imm + op->c; ++k, d += kLanes) {
+      const F sum = fma(l1, of_lanes(*t, t->varyings[k][1], lane), of_lanes(*t, t->varyings[k][0], lane));
+      store(fma(l2, of_lanes(*t, t->varyings[k][2], lane), sum), d);
+    }
+    return;
+  }
+  const float* planes[kQuadsPerVector];
+  for (int quad = 0; quad < kQuadsPerVector; ++quad)
+    planes[quad] = batch.triangle[lane / 4 + quad]->varyings + 3 * op->imm;
+  for (uint32_t k = 0; k < 3u * op->c; k += 3, d += kLanes) {
+    const F sum = fma(l1, spread_to_quads(planes, k + 1), spread_to_quads(planes, k));
+    store(fma(l2, spread_to_quads(planes, k + 2), sum), d);
+  }
+}
+
 struct op_interpolate {
   static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
-    const FragmentBatch& batch = *frame->fragments;
     const uint32_t* const a = reg_u(frame, op->a);
     const uint32_t* const b = reg_u(frame, op->b);
-    uint32_t* d = reg_out(frame, op->dst);
-    if (const LaneTriangles* const t = batch.lane_triangles) {
-      for (uint32_t result = 0; result < op->c; ++result, d += kLanes) {
-        const float(&planes)[3][kBatchLanes] = t->varyings[op->imm + result];
-        for (int i = 0; i < kLanes; i += kVectorLanes) {
-          const F sum = fma(load<F>(a + i), of_lanes(*t, planes[1], i), of_lanes(*t, planes[0], i));
-          store(fma(load<F>(b + i), of_lanes(*t, planes[2], i), sum), d + i);
-        }
-      }
-      return op + 1;
-    }
-    if (batch.one_triangle) {
-      const float* plane = batch.triangle[0]->varyings + op->imm * 3;
-      for (uint32_t result = 0; result < op->c; ++result, plane += 3, d += kLanes) {
-        const F a0 = broadcast(plane[0]);
-        const F d1 = broadcast(plane[1]);
-        const F d2 = broadcast(plane[2]);
-        for (int i = 0; i < kLanes; i += kVectorLanes) {
-          store(fma(load<F>(b + i), d2, fma(load<F>(a + i), d1, a0)), d + i);
-        }
-      }
-      return op + 1;
-    }
+    uint32_t* const d = reg_out(frame, op->dst);
     for (int i = 0; i < kLanes; i += kVectorLanes) {
-      const float* planes[kQuadsPerVector];
-      for (int quad = 0; quad < kQuadsPerVector; ++quad) planes[quad] = batch.triangle[i / 4 + quad]->varyings;
-      const F l1 = load<F>(a + i);
-      const F l2 = load<F>(b + i);
-      for (uint32_t result = 0; result < op->c; ++result) {
-        const uint32_t k = (op->imm + result) * 3;
-        const F sum = fma(l1, spread_to_quads(planes, k + 1), spread_to_quads(planes, k));
-        store(fma(l2, spread_to_quads(planes, k + 2), sum), d + result * kBatchLanes + i);
-      }
+      interpolate_lanes(*frame->fragments, i, op, load<F>(a + i), load<F>(b + i), d + i);
     }
     return op + 1;
+  }
+};
+
+// frag_linear, frag_perspective and interpolate in one; in a block of one triangle nothing between them is in memory.
+struct op_interpolate_perspective {
+  static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
+    const FragmentBatch& batch = *frame->fragments;
+    uint32_t* const d = reg_out(frame, op->dst);
+    if (is_block_of_one(batch)) {
+      const TriangleSetup& t = *batch.triangle[0];
+      const bool affine = is_affine(t, frame->lanes);
+      affine ? block<true>(t, batch.x[0], batch.y[0], op, d) : block<false>(t, batch.x[0], batch.y[0], op, d);
+      return op + 1;
+    }
+    alignas(64) float linear[2 * kLanes];
+    op_frag_linear::of_batch(batch, linear);
+    for (int i = 0; i < kLanes; i += kVectorLanes) {
+      const Corrected at =
+          correct_perspective(load<F>(linear + i), load<F>(linear + kLanes + i), inverse_w_of(batch, i));
+      interpolate_lanes(batch, i, op, at.l1, at.l2, d + i);
+    }
+    return op + 1;
+  }
+  template <bool kAffine>
+  static HWY_INLINE void block(const TriangleSetup& t, uint32_t x, uint32_t y, const Op* op, uint32_t* d) {
+    BlockEdge edge1(t.edge_a[1], t.edge_b[1], t.edge_c[1], x, y);
+    BlockEdge edge2(t.edge_a[2], t.edge_b[2], t.edge_c[2], x, y);
+    const D inverse_area2 = broadcast(t.inverse_area2);
+    const InverseW w = inverse_w_of(t);
+    const float* const plane = t.varyings + 3 * op->imm;
+    for (int i = 0; i < kLanes; i += kVectorLanes) {
+      const F l1 = to_float(edge1.next() * inverse_area2);
+      const F l2 = to_float(edge2.next() * inverse_area2);
+      const Corrected at = kAffine ? correct_affine(l1, l2) : correct_perspective(l1, l2, w);
+      interpolate_one(plane, op->c, at.l1, at.l2, d + i);
+    }
   }
 };
 
@@ -309,10 +332,17 @@ struct op_blend_color {
 };
 
 const HandlerEntry kEntries[] = {
-    LAPILLI_FAT(frag_linear, false), LAPILLI_FAT(frag_perspective, false), LAPILLI_FAT(frag_depth, true),
-    LAPILLI_FAT(interpolate, true),  LAPILLI_FAT(interpolate_flat, true),  LAPILLI_FAT(depth_test, false),
-    LAPILLI_CONTROL(count_samples),  LAPILLI_FAT(load_color, false),       LAPILLI_FAT(store_color, false),
+    LAPILLI_FAT(frag_linear, false),
+    LAPILLI_FAT(frag_perspective, false),
+    LAPILLI_FAT(frag_depth, true),
+    LAPILLI_FAT(interpolate, true),
+    LAPILLI_FAT(interpolate_flat, true),
+    LAPILLI_FAT(depth_test, false),
+    LAPILLI_CONTROL(count_samples),
+    LAPILLI_FAT(load_color, false),
+    LAPILLI_FAT(store_color, false),
     LAPILLI_FAT(blend_color, false),
+    LAPILLI_FAT(interpolate_perspective, true),
 };
 
 }  // namespace

@@ -96,6 +96,54 @@ TEST(Op, interpolate) {
   });
 }
 
+// What the three ops that it stands for give.
+void expect_fused_interpolation(FragmentTest& t) {
+  t.run(Opcode::frag_linear, operands(0));
+  t.run(Opcode::frag_perspective, operands(2, 0, 1));
+  t.run(Opcode::interpolate, operands(5, 2, 3, 2, 1));
+  t.run(Opcode::interpolate_perspective, operands(8, 0, 0, 2, 1));
+  EXPECT_EQ(t.result_of(8), t.result_of(5));
+  EXPECT_EQ(t.result_of(9), t.result_of(6));
+}
+
+TEST(Op, interpolate_perspective) {
+  for_all([](SimdTarget target, Quads quads) {
+    FragmentTest t(target, quads);
+    expect_fused_interpolation(t);
+  });
+}
+
+// Without perspective the sum of the coordinates is nearly 1, and there is no division. Varyings that are the
+// coordinates themselves show each bit.
+TEST(Op, InterpolateWithoutPerspective) {
+  for (SimdTarget target : supported_simd_targets()) {
+    FragmentTest t(target, Quads::block);
+    std::mt19937_64 random(3);
+    const float coordinates[] = {0, 0, 0, 0, 1, 0, 0, 0, 1};
+    std::copy(std::begin(coordinates), std::end(coordinates), t.varyings[0]);
+    TriangleSetup& triangle = t.triangles[0];
+    std::fill_n(triangle.inverse_w, 3, 1.0f);
+    for (int round = 0; round < 4000; ++round) {
+      // A triangle around the block, a little larger than that or much.
+      const int64_t area2 = int64_t{1} << (12 + random() % 36) | static_cast<int64_t>(random() % 4096);
+      const int64_t step = area2 / (int64_t{64} << random() % 24);
+      int64_t room = area2 - 56 * step;
+      for (int e = 1; e < 3; ++e) {
+        const auto any_step = [&] { return static_cast<int64_t>(random()) % (step + 1); };
+        const int64_t a = any_step(), b = any_step();
+        const int64_t inside = static_cast<int64_t>(random() >> 1) % (room + 1) >> random() % 24;
+        const int64_t c = 14 * step + inside - a * t.batch.x[0] - b * t.batch.y[0];
+        room -= inside;
+        triangle.edge_a[e] = static_cast<double>(a);
+        triangle.edge_b[e] = static_cast<double>(b);
+        triangle.edge_c[e] = static_cast<double>(c);
+      }
+      triangle.inverse_area2 = 1.0 / static_cast<double>(area2);
+      expect_fused_interpolation(t);
+    }
+  }
+}
+
 TEST(Op, interpolate_flat) {
   for_all([](SimdTarget target, Quads quads) {
     FragmentTest t(target, quads);

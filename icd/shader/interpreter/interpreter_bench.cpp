@@ -318,6 +318,8 @@ void add_all() {
       add_op(target, "frag_depth" + suffix, Opcode::frag_depth, {nullptr, 4, 0, 0, 0, 0, 0}, one);
       add_op(target, "frag_perspective" + suffix, Opcode::frag_perspective, {nullptr, 4, 0, 1, 0, 0, 0}, one);
       add_op(target, "interpolate x3" + suffix, Opcode::interpolate, {nullptr, 4, 0, 1, 3, 0, 0}, one);
+      add_op(target, "interpolate_perspective x3" + suffix, Opcode::interpolate_perspective,
+             {nullptr, 4, 0, 0, 3, 0, 0}, one);
       add_op(target, "interpolate_flat x3" + suffix, Opcode::interpolate_flat, {nullptr, 4, 0, 1, 3, 0, 0}, one);
     }
     add_op(target, "builtin frag_coord_x", Opcode::builtin,

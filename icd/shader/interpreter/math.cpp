@@ -43,7 +43,7 @@ LAPILLI_OP1(ffrexp_exponent, frexp(a).exponent)
 
 const HandlerEntry kEntries[] = {
     LAPILLI_HOT1(fsqrt, F(F)),
-    LAPILLI_COLD(frsqrt, F(F)),
+    LAPILLI_HOT1(frsqrt, F(F)),
     LAPILLI_HOT1(ffract, F(F)),
     LAPILLI_COLD(frem, F(F, F)),
     LAPILLI_COLD(fmod, F(F, F)),

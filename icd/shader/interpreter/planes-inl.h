@@ -19,21 +19,26 @@ alignas(64) inline constexpr double kLaneX[16] = {0, 1, 0, 1, 2, 3, 2, 3, 4, 5, 
 alignas(64) inline constexpr double kLaneY[16] = {0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1};
 static_assert(kVectorLanes <= 16, "a vector lies in one row of a block's quads");
 
-// An edge function over a block: vector 0, and the step from there to vector i.
-struct BlockEdge {
-  D first;
-  double a, b;
-
-  HWY_INLINE BlockEdge(double edge_a, double edge_b, double edge_c, uint32_t x, uint32_t y) : a(edge_a), b(edge_b) {
+// An edge function over a block, one vector after the other.
+class BlockEdge {
+ public:
+  HWY_INLINE BlockEdge(double edge_a, double edge_b, double edge_c, uint32_t x, uint32_t y)
+      : row_step_(broadcast(2 * edge_b)), a_(edge_a) {
     const double at_origin = edge_a * x + edge_b * y + edge_c;
-    first = broadcast(at_origin) + (broadcast(a) * load_d(kLaneX) + broadcast(b) * load_d(kLaneY));
+    row_ = broadcast(at_origin) + (broadcast(edge_a) * load_d(kLaneX) + broadcast(edge_b) * load_d(kLaneY));
   }
-  HWY_INLINE D vector(int i) const {
-    constexpr int kPerRow = 16 / kVectorLanes;
-    const double dx = i % kPerRow * (kVectorLanes / 2);
-    const double dy = i / kPerRow * 2;
-    return first + broadcast(a * dx + b * dy);
+  HWY_INLINE D next() {
+    constexpr int kVectorsPerRow = 16 / kVectorLanes;
+    const D here = column_ == 0 ? row_ : row_ + broadcast(a_ * (column_ * (kVectorLanes / 2)));
+    column_ = (column_ + 1) % kVectorsPerRow;
+    if (column_ == 0) row_ = row_ + row_step_;
+    return here;
   }
+
+ private:
+  D row_, row_step_;
+  double a_;
+  int column_ = 0;
 };
 
 // What the triangles of lanes i … have in one of LaneTriangles' arrays.
