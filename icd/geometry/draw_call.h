@@ -60,4 +60,10 @@ struct DrawCall {
   DrawLedger* ledger = nullptr;        // null: nobody asks
 };
 
+// Whether nothing can tell fragments of the two apart, so that they may share a batch.
+inline bool share_fragments(const DrawCall& a, const DrawCall& b) {
+  if (a.state != b.state || a.samples_passed != b.samples_passed || a.ledger != b.ledger) return false;
+  return a.ledger == nullptr && (a.resources == b.resources || !a.state->programs->fragment_reads_resources);
+}
+
 }  // namespace lapilli

@@ -16,7 +16,8 @@ class QuadPacker {
   void begin_pass(ExecutionLimits& limits);
   // Starts a tile: its storage and the framebuffer position of its first pixel.
   void begin_tile(const TilePlanes& planes, uint32_t tile_x, uint32_t tile_y);
-  // From here on quads belong to `draw`. Runs what is pending of the draw before. `count_samples`: the program counts.
+  // From here on quads belong to `draw`. Runs what is pending of the draw before, unless it may share batches.
+  // `count_samples`: the program counts.
   void begin_draw(const DrawCall& draw, bool count_samples);
   // Adds pixels of a block, by its bit. The triangle must stay where it is until nothing is pending any more.
   void add(const TriangleSetup& triangle, uint32_t block, uint64_t pixels);
@@ -37,8 +38,8 @@ class QuadPacker {
   void run(FragmentBatch& batch, uint64_t lanes);
 
   ExecutionLimits* limits_ = nullptr;
-  const DrawCall* draw_ = nullptr;
-  bool prepared_ = false;  // the draw's program
+  const DrawCall* draw_ = nullptr;  // or one that may share batches with it
+  bool prepared_ = false;           // the draw's program
   bool out_of_memory_ = false;
   Execution execution_;
   FragmentBatch batch_{};

@@ -362,7 +362,7 @@ uint32_t TileWorker::add_number() {
   for (const uint16_t v : chunk.triangles[triangle_.index].v) {
     __builtin_prefetch(chunk.varyings.data() + chunk.vertices[v].varyings);
   }
-  if (deferred_draws_.empty() || deferred_draws_.back().call != draw_.call) {
+  if (deferred_draws_.empty() || !share_fragments(*deferred_draws_.back().call, *draw_.call)) {
     deferred_draws_.push_back({draw_.call, visibility_.next_number()});
   }
   const uint32_t draw = static_cast<uint32_t>(deferred_draws_.size() - 1);

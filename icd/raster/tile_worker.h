@@ -125,6 +125,7 @@ class TileWorker {
     uint32_t index;  // in chunk->triangles
   };
   std::vector<Listed> listed_;
+  // A draw, and those after it that may share batches with it.
   struct DeferredDraw {
     const DrawCall* call;
     uint32_t first;  // number of a triangle; the others follow

@@ -392,6 +392,18 @@ Result<Code> make_compute_code(const ShaderStage& stage, const ResourceLayout& l
   return std::move(shader->code);
 }
 
+namespace {
+
+// Descriptors or push constants.
+bool read_resources(std::span<const Instruction> instructions) {
+  return std::ranges::any_of(instructions, [](const Instruction& instruction) {
+    return imm_roles(instruction.op).imm == ImmRole::resource || instruction.op == Opcode::load_push ||
+           instruction.op == Opcode::load_push_indexed;
+  });
+}
+
+}  // namespace
+
 Result<GraphicsPrograms> build_graphics(const ShaderStage& vertex, const ShaderStage* fragment,
                                         const GraphicsState& state, const ResourceLayout& layout) {
   Result<GraphicsCode> code = make_graphics_code(vertex, fragment, state, layout);
@@ -408,6 +420,8 @@ Result<GraphicsPrograms> build_graphics(const ShaderStage& vertex, const ShaderS
   out.varyings = std::move(code->varyings);
   out.output_slots = code->output_slots;
   out.fragment_reads_nothing = code->fragment_reads_nothing;
+  const Code& fragment_code = source(*out.fragment);
+  out.fragment_reads_resources = read_resources(fragment_code.once) || read_resources(fragment_code.instructions);
   return out;
 }
 

@@ -74,6 +74,8 @@ struct GraphicsPrograms : FragmentPlan {
   std::vector<Interpolation> varyings;  // one per varying component, from kSlotVaryings on
   uint32_t output_slots = 0;            // slots of VertexBatch::outputs
   bool fragment_reads_nothing = false;  // depth only
+  // Whether a ResourceTable makes a difference to the fragment program.
+  bool fragment_reads_resources = true;
 };
 
 Result<GraphicsPrograms> build_graphics(const ShaderStage& vertex, const ShaderStage* fragment,
