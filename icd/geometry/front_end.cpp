@@ -34,11 +34,6 @@ bool has_effect(const DrawCall& draw) {
   return !programs.fragment_reads_nothing || programs.depth_write || counts;
 }
 
-// Of draws with the same state: whether nothing in the vertex program can tell them apart.
-bool same_blocks(const DrawCall& a, const DrawCall& b) {
-  return a.bindings == b.bindings && a.resources == b.resources;
-}
-
 bool has_distinct_vertices(const DrawCall& draw) {
   return draw.indices.data == nullptr && draw.state->raster.topology == VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
 }
@@ -185,8 +180,9 @@ void FrontEnd::fill(const Chunk& plan, Worker& worker, BinChunk& out) {
   finish_chunk(grid_, out);
 }
 
-// Triangles of draws with the same state are set up together. Those that have bindings and resources in common, too,
-// share batches of vertices, and the vertices themselves where index and instance are the same.
+// Triangles of draws with the same state are set up together. Those that have bindings in common, too, share batches of
+// vertices if the program reads resources once per draw at most, and with the same resources the vertices themselves
+// where index and instance are the same.
 void FrontEnd::fill_list(std::span<const WorkItem> items, Worker& worker, BinChunk& out) {
   const SetupState state = make_setup_state(*draws_[items[0].draw].state, area_);
   TriangleList list;
@@ -203,9 +199,12 @@ void FrontEnd::fill_list(std::span<const WorkItem> items, Worker& worker, BinChu
   const DrawCall* before = nullptr;
   for (const WorkItem& item : items) {
     const DrawCall& draw = draws_[item.draw];
-    if (before == nullptr || !same_blocks(*before, draw)) {
+    if (before == nullptr || before->bindings != draw.bindings ||
+        (before->resources != draw.resources && draw.state->programs->vertices_read_resources)) {
       if (before != nullptr) stage.run(state, out);
       if (!stage.begin(draw, *limits_)) throw std::bad_alloc();
+    } else if (before->resources != draw.resources) {
+      stage.change_resources(draw);
     }
     if (before != &draw) begin_run(state, item.draw, out);
     before = &draw;

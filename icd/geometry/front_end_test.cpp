@@ -294,6 +294,42 @@ TEST_F(FrontEndTest, DrawsShareVerticesWhereNothingCanTell) {
   EXPECT_EQ(collect(draws).vertices, 27u);
 }
 
+// Draws of 1 to 90 triangles, so that batches hold several draws and draws need several batches; vertices that two
+// draws have in common have other varyings in each.
+TEST_P(FrontEndTargets, DrawsWithOtherPushConstantsKeepTheirs) {
+  TestProgram program(kWidth, kHeight, true);
+  const GridMesh grid(40, 30);
+  program.bind(grid.vertices);
+  constexpr uint32_t kDraws = 60;
+  float pushed[kDraws][4];
+  ResourceTable tables[kDraws];
+  std::vector<std::vector<uint32_t>> indices(kDraws);
+  std::vector<DrawCall> draws;
+  std::mt19937 random(7);
+  const auto below = [&](uint32_t n) { return static_cast<uint32_t>(random() % n); };
+  for (uint32_t i = 0; i < kDraws; ++i) {
+    for (float& value : pushed[i]) value = static_cast<float>(below(1000));
+    tables[i].push_constants = reinterpret_cast<const std::byte*>(pushed[i]);
+    tables[i].push_constant_bytes = sizeof pushed[i];
+    const uint32_t first = below(1000), count = 1 + below(90);
+    indices[i].assign(grid.indices.begin() + 3 * first, grid.indices.begin() + 3 * (first + count));
+    draws.push_back(below(3) == 0 ? program.draw(3 * count) : program.draw_indexed(indices[i]));
+    draws[i].resources = &tables[below(4) == 0 && i > 0 ? i - 1 : i];
+  }
+  std::vector<Result> alone;
+  for (uint32_t i = 0; i < kDraws; ++i) {
+    for (Result& each : collect(std::span(draws).subspan(i, 1)).triangles) {
+      each.draw = i;
+      alone.push_back(each);
+    }
+  }
+  program.programs.vertices_read_resources = false;
+  EXPECT_TRUE(collect(draws).triangles == alone);
+  EXPECT_TRUE(collect(draws, 3).triangles == alone);
+  program.programs.vertices_read_resources = true;
+  EXPECT_TRUE(collect(draws).triangles == alone);
+}
+
 TEST_F(FrontEndTest, OrderDoesNotDependOnThreadsOrChunks) {
   std::mt19937 random(5);
   std::minstd_rand pick(5);

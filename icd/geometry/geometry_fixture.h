@@ -1,5 +1,5 @@
 // For tests and benchmarks: draws made by hand, with a small vertex program: position = matrix * (attribute 0, 1),
-// varyings = attribute 1.
+// varyings = attribute 1 (+ three push constants).
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ struct TestProgram {
   ResourceTable resources;
   DrawState state;
 
-  explicit TestProgram(uint32_t width = 1280, uint32_t height = 720) {
+  explicit TestProgram(uint32_t width = 1280, uint32_t height = 720, bool adds_push_constants = false) {
     Code vertex;
     vertex.stage = VK_SHADER_STAGE_VERTEX_BIT;
     vertex.attributes = {{0, 0, 0, VK_FORMAT_R32G32B32_SFLOAT},
@@ -36,8 +36,10 @@ struct TestProgram {
       vertex.emit_void(Opcode::store_output, sum, kNoReg, kNoReg, kSlotPosition + row);
     }
     const Reg color = vertex.emit_n(Opcode::fetch, 3, kNoReg, kNoReg, kNoReg, 1);
+    const Reg more = adds_push_constants ? vertex.emit_n(Opcode::load_push, 3) : kNoReg;
     for (uint32_t i = 0; i < 3; ++i) {
-      vertex.emit_void(Opcode::store_output, color + i, kNoReg, kNoReg, kSlotVaryings + i);
+      const Reg sum = adds_push_constants ? vertex.emit(Opcode::fadd, color + i, more + i) : color + i;
+      vertex.emit_void(Opcode::store_output, sum, kNoReg, kNoReg, kSlotVaryings + i);
     }
     vertex.emit_void(Opcode::end);
     vertex.output_slots = programs.output_slots = kSlotVaryings + 3;

@@ -16,11 +16,19 @@ void VertexStage::begin_list() { positions_.clear(); }
 
 bool VertexStage::begin(const DrawCall& draw, ExecutionLimits& limits) {
   draw_ = &draw;
+  limits_ = &limits;
   first_ = static_cast<uint32_t>(positions_.size());
   vertex_.clear();
   instance_.clear();
   instance_first_ = 0;
+  parts_.clear();
+  parts_.push_back({draw.resources, 0});
   return execution_.prepare(*draw.state->programs->vertex, *draw.resources, &limits);
+}
+
+void VertexStage::change_resources(const DrawCall& draw) {
+  instance_first_ = static_cast<uint32_t>(vertex_.size());
+  parts_.push_back({draw.resources, instance_first_});
 }
 
 void VertexStage::make_table() {
@@ -66,6 +74,19 @@ void VertexStage::add_distinct(uint32_t instance, std::span<uint32_t> vertices) 
   std::iota(vertices.begin(), vertices.end(), first_ + static_cast<uint32_t>(before));
 }
 
+// For the slots of a batch; `part` is that of the first one, and then that of the last.
+void VertexStage::prepare_lanes(uint32_t first, uint32_t lanes, size_t& part) {
+  const uint32_t end = first + lanes;
+  for (uint32_t slot = first; slot < end;) {
+    while (part + 1 < parts_.size() && parts_[part + 1].first <= slot) ++part;
+    const uint32_t part_end = part + 1 < parts_.size() ? std::min(parts_[part + 1].first, end) : end;
+    // The program is bound already: this cannot fail.
+    (void)execution_.prepare(*draw_->state->programs->vertex, *parts_[part].resources, limits_);
+    execution_.prepare_lanes(slot - first, part_end - first);
+    slot = part_end;
+  }
+}
+
 void VertexStage::run(const SetupState& state, BinChunk& chunk) {
   const uint32_t count = static_cast<uint32_t>(vertex_.size());
   const size_t slots = std::max<uint32_t>(draw_->state->programs->output_slots, kSlotVaryings);
@@ -76,11 +97,13 @@ void VertexStage::run(const SetupState& state, BinChunk& chunk) {
   chunk.vertices.reserve(chunk.vertices.size() + count + kBatchLanes);
   chunk.varyings.reserve(chunk.varyings.size() + (count + kBatchLanes) * state.varyings.size());
   positions_.reserve(positions_.size() + count + kBatchLanes);
+  size_t part = 0;
   for (uint32_t first = 0; first < count; first += kBatchLanes) {
     const uint32_t lanes = std::min(count - first, kBatchLanes);
     // Idle lanes keep what they had.
     std::memcpy(batch_.vertex_index, vertex_.data() + first, lanes * sizeof(uint32_t));
     std::memcpy(batch_.instance_index, instance_.data() + first, lanes * sizeof(uint32_t));
+    if (parts_.size() > 1) prepare_lanes(first, lanes, part);
     execution_.run_vertices(batch_, lanes == kBatchLanes ? ~uint64_t{0} : (uint64_t{1} << lanes) - 1);
     append_vertices(state, batch_.outputs, lanes, chunk, positions_);
   }

@@ -18,6 +18,8 @@ class VertexStage {
   // From here on vertices belong to draws with these bindings and resources; run() has been called for those before.
   // False: out of memory.
   bool begin(const DrawCall& draw, ExecutionLimits& limits);
+  // The same for other resources only, of a program that reads none once per vertex: batches go on.
+  void change_resources(const DrawCall& draw);
   // Turns vertex indices (firstVertex or vertexOffset included) into their numbers in the list. A vertex that was there
   // before since begin() is not run again unless another one has taken its place in the table. `instance`:
   // firstInstance included. At most kMostVertices in a list. Returns how many are new.
@@ -37,15 +39,24 @@ class VertexStage {
     float value[16];
   };
 
+  // The slots from `first` on, up to the next one's, are of draws with these resources.
+  struct Part {
+    const ResourceTable* resources;
+    uint32_t first;
+  };
+  void prepare_lanes(uint32_t first, uint32_t lanes, size_t& part);
+
   const DrawCall* draw_ = nullptr;
+  ExecutionLimits* limits_ = nullptr;
   Execution execution_;
-  uint32_t first_ = 0;  // in the list, of the vertices since begin()
+  BinArray<Part> parts_;  // since begin()
+  uint32_t first_ = 0;    // in the list, of the vertices since begin()
   // Of those: vertex and instance index. With a table there is room for kMostVertices.
   BinArray<uint32_t> vertex_, instance_;
   // By the low bits of a vertex index: the slot (place in vertex_) that it may have. What vertex_ says of it decides,
   // so that nothing has to be cleared. Made with the first indexed draw.
   std::vector<uint16_t> last_slot_;
-  uint32_t instance_first_ = 0;       // slot from which on all have the present instance
+  uint32_t instance_first_ = 0;       // slot from which on all have the present instance and resources
   BinArray<ClipPosition> positions_;  // of the list
   VertexBatch batch_{};
   std::vector<Line> outputs_;  // [slot][64 lanes]

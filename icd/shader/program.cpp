@@ -104,6 +104,18 @@ struct Execution::State {
     spread(program->uniform_lanes, frame);
   }
 
+  void run_once_for(uint32_t first, uint32_t end) {
+    if (once_is_due) entry(program->once.data(), frame);
+    once_is_due = false;
+    limits_serial = 0;  // the other lanes are those of other draws
+    for (const Spread& each : program->uniform_lanes) {
+      uint32_t lanes[kBatchLanes];
+      std::byte* const reg = frame->registers() + each.reg * kRegisterBytes + first * sizeof(uint32_t);
+      std::fill_n(lanes, end - first, frame->scalars[each.scalar]);
+      std::memcpy(reg, lanes, (end - first) * sizeof(uint32_t));
+    }
+  }
+
   void run(uint64_t exec, uint64_t write) {
     if (write == 0) return;
     if (frame->limits != nullptr && frame->limits->expired.load(std::memory_order_relaxed)) return;
@@ -147,6 +159,8 @@ bool Execution::prepare(const Program& program, const ResourceTable& resources, 
   state.once_is_due = !program.once.empty();
   return true;
 }
+
+void Execution::prepare_lanes(uint32_t first, uint32_t end) { state_->run_once_for(first, end); }
 
 void Execution::run_vertices(const VertexBatch& batch, uint64_t lanes) {
   state_->frame->vertices = &batch;

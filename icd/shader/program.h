@@ -60,6 +60,9 @@ class Execution {
   // Binds program and resources; keeps its memory for the next call. False: out of memory. What a ResourceTable says
   // may not change while a pass (one ExecutionLimits) runs: to prepare the same again costs nothing.
   bool prepare(const Program& program, const ResourceTable& resources, ExecutionLimits* limits);
+  // For batches of several draws: only these lanes get what is the same in a whole draw, of the resources prepared
+  // last. After it, all that a batch to be run has, prepare() begins anew.
+  void prepare_lanes(uint32_t first, uint32_t end);
   // Run one batch. `lanes`: lanes with a vertex, invocation or covered sample. Fragments: helper lanes are the other
   // lanes of covered quads.
   void run_vertices(const VertexBatch& batch, uint64_t lanes);

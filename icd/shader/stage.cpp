@@ -420,6 +420,7 @@ Result<GraphicsPrograms> build_graphics(const ShaderStage& vertex, const ShaderS
   out.varyings = std::move(code->varyings);
   out.output_slots = code->output_slots;
   out.fragment_reads_nothing = code->fragment_reads_nothing;
+  out.vertices_read_resources = read_resources(source(*out.vertex).instructions);
   const Code& fragment_code = source(*out.fragment);
   out.fragment_reads_resources = read_resources(fragment_code.once) || read_resources(fragment_code.instructions);
   return out;

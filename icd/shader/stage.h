@@ -74,8 +74,9 @@ struct GraphicsPrograms : FragmentPlan {
   std::vector<Interpolation> varyings;  // one per varying component, from kSlotVaryings on
   uint32_t output_slots = 0;            // slots of VertexBatch::outputs
   bool fragment_reads_nothing = false;  // depth only
-  // Whether a ResourceTable makes a difference to the fragment program.
-  bool fragment_reads_resources = true;
+  // Whether a ResourceTable makes a difference to the fragment program; and to the vertex program beyond what it
+  // computes once per draw.
+  bool fragment_reads_resources = true, vertices_read_resources = true;
 };
 
 Result<GraphicsPrograms> build_graphics(const ShaderStage& vertex, const ShaderStage* fragment,
