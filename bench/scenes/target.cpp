@@ -7,20 +7,11 @@
 namespace lapilli::bench {
 namespace {
 
-using samples::check;
-
-VkAttachmentDescription attachment(VkFormat format, VkSampleCountFlagBits samples, bool cleared, bool kept,
+VkAttachmentDescription attachment(VkFormat format, VkSampleCountFlagBits count, bool cleared, bool kept,
                                    VkImageLayout final_layout) {
-  VkAttachmentDescription description = {};
-  description.format = format;
-  description.samples = samples;
-  description.loadOp = cleared ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_DONT_CARE;
-  description.storeOp = kept ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE;
-  description.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
-  description.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-  description.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
-  description.finalLayout = final_layout;
-  return description;
+  return samples::describe_attachment(
+      format, count, cleared ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_DONT_CARE,
+      kept ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE, final_layout);
 }
 
 }  // namespace
@@ -42,18 +33,7 @@ Target::Target(const samples::Context& context, VkExtent2D extent, const TargetS
   }
   attachments_ = static_cast<uint32_t>(views.size());
   create_render_pass(context, shape);
-
-  VkFramebufferCreateInfo info = {};
-  info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
-  info.renderPass = render_pass_.get();
-  info.attachmentCount = attachments_;
-  info.pAttachments = views.data();
-  info.width = extent.width;
-  info.height = extent.height;
-  info.layers = 1;
-  VkFramebuffer framebuffer = VK_NULL_HANDLE;
-  check(vkCreateFramebuffer(context.device(), &info, nullptr, &framebuffer), "vkCreateFramebuffer");
-  framebuffer_ = samples::Framebuffer(context.device(), framebuffer);
+  framebuffer_ = samples::create_framebuffer(context, render_pass_, views, extent);
 }
 
 void Target::create_render_pass(const samples::Context& context, const TargetShape& shape) {
@@ -79,28 +59,7 @@ void Target::create_render_pass(const samples::Context& context, const TargetSha
   subpass.pColorAttachments = &color;
   subpass.pResolveAttachments = resolves ? &resolved : nullptr;
   subpass.pDepthStencilAttachment = shape.depth ? &depth : nullptr;
-
-  constexpr VkPipelineStageFlags kStages = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
-                                           VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT |
-                                           VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
-  constexpr VkAccessFlags kWrites = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
-  constexpr VkAccessFlags kReads = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT;
-  // Before: the frame drawn last and the copy of it. After: the copy of this one.
-  const std::array<VkSubpassDependency, 2> dependencies = {{
-      {VK_SUBPASS_EXTERNAL, 0, kStages | VK_PIPELINE_STAGE_TRANSFER_BIT, kStages, kWrites, kReads | kWrites, 0},
-      {0, VK_SUBPASS_EXTERNAL, kStages, VK_PIPELINE_STAGE_TRANSFER_BIT, kWrites, VK_ACCESS_TRANSFER_READ_BIT, 0},
-  }};
-  VkRenderPassCreateInfo info = {};
-  info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO;
-  info.attachmentCount = static_cast<uint32_t>(attachments.size());
-  info.pAttachments = attachments.data();
-  info.subpassCount = 1;
-  info.pSubpasses = &subpass;
-  info.dependencyCount = static_cast<uint32_t>(dependencies.size());
-  info.pDependencies = dependencies.data();
-  VkRenderPass render_pass = VK_NULL_HANDLE;
-  check(vkCreateRenderPass(context.device(), &info, nullptr, &render_pass), "vkCreateRenderPass");
-  render_pass_ = samples::RenderPass(context.device(), render_pass);
+  render_pass_ = samples::create_render_pass(context, attachments, subpass);
 }
 
 void Target::begin(VkCommandBuffer commands, const std::array<float, 4>& clear_color) const {

@@ -6,19 +6,6 @@
 namespace lapilli::samples {
 namespace {
 
-VkAttachmentDescription cleared_attachment(VkFormat format) {
-  VkAttachmentDescription attachment = {};
-  attachment.format = format;
-  attachment.samples = VK_SAMPLE_COUNT_1_BIT;
-  attachment.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-  attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-  attachment.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
-  attachment.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-  attachment.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
-  attachment.finalLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
-  return attachment;
-}
-
 void copy_to_buffer(VkCommandBuffer commands, const Image& image, VkImageAspectFlags aspect, const Buffer& buffer) {
   VkBufferImageCopy region = {};
   region.imageSubresource = {aspect, 0, 0, 1};
@@ -28,36 +15,22 @@ void copy_to_buffer(VkCommandBuffer commands, const Image& image, VkImageAspectF
 
 }  // namespace
 
-RenderTarget::RenderTarget(const Context& context, VkExtent2D extent)
-    : color_(context, extent, kColorFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT),
-      depth_(context, extent, kDepthFormat,
-             VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT) {
-  create_render_pass(context);
-  const std::array<VkImageView, 2> views = {color_.view(), depth_.view()};
-  VkFramebufferCreateInfo info = {};
-  info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
-  info.renderPass = render_pass_.get();
-  info.attachmentCount = static_cast<uint32_t>(views.size());
-  info.pAttachments = views.data();
-  info.width = extent.width;
-  info.height = extent.height;
-  info.layers = 1;
-  VkFramebuffer framebuffer = VK_NULL_HANDLE;
-  check(vkCreateFramebuffer(context.device(), &info, nullptr, &framebuffer), "vkCreateFramebuffer");
-  framebuffer_ = Framebuffer(context.device(), framebuffer);
+VkAttachmentDescription describe_attachment(VkFormat format, VkSampleCountFlagBits samples, VkAttachmentLoadOp load_op,
+                                            VkAttachmentStoreOp store_op, VkImageLayout final_layout) {
+  VkAttachmentDescription attachment = {};
+  attachment.format = format;
+  attachment.samples = samples;
+  attachment.loadOp = load_op;
+  attachment.storeOp = store_op;
+  attachment.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+  attachment.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+  attachment.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+  attachment.finalLayout = final_layout;
+  return attachment;
 }
 
-void RenderTarget::create_render_pass(const Context& context) {
-  const std::array<VkAttachmentDescription, 2> attachments = {cleared_attachment(kColorFormat),
-                                                              cleared_attachment(kDepthFormat)};
-  const VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-  const VkAttachmentReference depth = {1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
-  VkSubpassDescription subpass = {};
-  subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
-  subpass.colorAttachmentCount = 1;
-  subpass.pColorAttachments = &color;
-  subpass.pDepthStencilAttachment = &depth;
-
+RenderPass create_render_pass(const Context& context, std::span<const VkAttachmentDescription> attachments,
+                              const VkSubpassDescription& subpass) {
   constexpr VkPipelineStageFlags kAttachmentStages = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
                                                      VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT |
                                                      VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
@@ -72,7 +45,6 @@ void RenderTarget::create_render_pass(const Context& context) {
       {0, VK_SUBPASS_EXTERNAL, kAttachmentStages, VK_PIPELINE_STAGE_TRANSFER_BIT, kAttachmentWrites,
        VK_ACCESS_TRANSFER_READ_BIT, 0},
   }};
-
   VkRenderPassCreateInfo info = {};
   info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO;
   info.attachmentCount = static_cast<uint32_t>(attachments.size());
@@ -83,7 +55,42 @@ void RenderTarget::create_render_pass(const Context& context) {
   info.pDependencies = dependencies.data();
   VkRenderPass render_pass = VK_NULL_HANDLE;
   check(vkCreateRenderPass(context.device(), &info, nullptr, &render_pass), "vkCreateRenderPass");
-  render_pass_ = RenderPass(context.device(), render_pass);
+  return RenderPass(context.device(), render_pass);
+}
+
+Framebuffer create_framebuffer(const Context& context, const RenderPass& render_pass,
+                               std::span<const VkImageView> views, VkExtent2D extent) {
+  VkFramebufferCreateInfo info = {};
+  info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
+  info.renderPass = render_pass.get();
+  info.attachmentCount = static_cast<uint32_t>(views.size());
+  info.pAttachments = views.data();
+  info.width = extent.width;
+  info.height = extent.height;
+  info.layers = 1;
+  VkFramebuffer framebuffer = VK_NULL_HANDLE;
+  check(vkCreateFramebuffer(context.device(), &info, nullptr, &framebuffer), "vkCreateFramebuffer");
+  return Framebuffer(context.device(), framebuffer);
+}
+
+RenderTarget::RenderTarget(const Context& context, VkExtent2D extent)
+    : color_(context, extent, kColorFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT),
+      depth_(context, extent, kDepthFormat,
+             VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT) {
+  const auto cleared = [](VkFormat format) {
+    return describe_attachment(format, VK_SAMPLE_COUNT_1_BIT, VK_ATTACHMENT_LOAD_OP_CLEAR, VK_ATTACHMENT_STORE_OP_STORE,
+                               VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+  };
+  const std::array<VkAttachmentDescription, 2> attachments = {cleared(kColorFormat), cleared(kDepthFormat)};
+  const VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+  const VkAttachmentReference depth = {1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
+  VkSubpassDescription subpass = {};
+  subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
+  subpass.colorAttachmentCount = 1;
+  subpass.pColorAttachments = &color;
+  subpass.pDepthStencilAttachment = &depth;
+  render_pass_ = create_render_pass(context, attachments, subpass);
+  framebuffer_ = create_framebuffer(context, render_pass_, std::array{color_.view(), depth_.view()}, extent);
 }
 
 void RenderTarget::begin(VkCommandBuffer commands, const std::array<float, 4>& clear_color, float clear_depth) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "common/resources.h"
@@ -15,6 +16,15 @@ struct Frame {
   std::vector<uint8_t> color;  // red, green, blue, alpha, a byte each
   std::vector<float> depth;    // as the D32_SFLOAT attachment holds it
 };
+
+// An attachment whose contents before the pass are cleared or of no interest; stencil is ignored.
+VkAttachmentDescription describe_attachment(VkFormat format, VkSampleCountFlagBits samples, VkAttachmentLoadOp load_op,
+                                            VkAttachmentStoreOp store_op, VkImageLayout final_layout);
+// A pass of one subpass, whose attachments the frame before and copies may still be using, and copies read afterwards.
+RenderPass create_render_pass(const Context& context, std::span<const VkAttachmentDescription> attachments,
+                              const VkSubpassDescription& subpass);
+Framebuffer create_framebuffer(const Context& context, const RenderPass& render_pass,
+                               std::span<const VkImageView> views, VkExtent2D extent);
 
 class RenderTarget {
  public:
@@ -34,8 +44,6 @@ class RenderTarget {
   Frame read_back(const Context& context) const;
 
  private:
-  void create_render_pass(const Context& context);
-
   Image color_;
   Image depth_;
   RenderPass render_pass_;
