@@ -15,6 +15,7 @@ struct Findings {
   std::vector<Series> series;
   std::vector<Start> starts;
   std::vector<TwoThreads> two_threads;
+  Scaling scaling;  // of the machine itself, beside two_threads
   std::vector<Curve> growth;
 };
 

@@ -144,6 +144,7 @@ void obey_all(const std::vector<Command>& commands) {
 
 // Runs `work(thread)` on all threads at once, `repeats` times; the shortest time from the first start to the last end,
 // in seconds.
+constexpr int kRepeats = 10;
 constexpr double kLongest = 0.2;  // seconds: where others keep the machine busy, fewer repeats have to do
 double best_seconds(int threads, int repeats, const std::function<void(int)>& work) {
   std::atomic<int> waiting = 0;
@@ -196,32 +197,46 @@ double stream_seconds(int threads, double written, double read) {
   });
 }
 
+// What one measurement does on `threads` threads; rates of all of them together.
+double operations_per_second(int threads) {
+  constexpr int kRounds = 30000;
+  return 12.0 * lanes() * kRounds * threads / best_seconds(threads, kRepeats, [](int) {
+           run_best({Job::arithmetic, kRounds});
+         });
+}
+
+double cached_bytes_per_second(int threads) {
+  constexpr size_t kWords = 4096;
+  constexpr int kUpdates = 1000;
+  std::vector<Floats> words;
+  for (int t = 0; t < threads; ++t) words.push_back(floats(kWords));
+  return 8.0 * kWords * kUpdates * threads / best_seconds(threads, kRepeats, [&](int thread) {
+           run_best({Job::update, kUpdates, words[static_cast<size_t>(thread)].get(), kWords});
+         });
+}
+
+double loads_per_second(int threads) {
+  const std::vector<uint64_t> table(kTableWords, 3);
+  std::vector<uint32_t> places(2048);
+  for (uint32_t i = 0; i < places.size(); ++i) places[i] = i * 37 / 100 + i % 64 / 8 * 512;
+  constexpr int kLoads = 500;
+  return 2.0 * static_cast<double>(places.size()) * kLoads * threads /
+         best_seconds(threads, kRepeats, [&](int) { load(table.data(), places, kLoads); });
+}
+
+double memory_bytes_per_second(int threads) {
+  constexpr double kBytes = 32u << 20;  // written, and as many read
+  return 2 * kBytes / stream_seconds(threads, kBytes, kBytes);
+}
+
 }  // namespace
 
 Machine::Machine() : threads_(std::max(1, static_cast<int>(std::thread::hardware_concurrency()))) { measure(); }
 
 void Machine::measure() {
-  constexpr int kRepeats = 10;
-  const auto improve = [&](double& rate, double done, const std::function<void(int)>& work) {
-    rate = std::max(rate, done * threads_ / best_seconds(threads_, kRepeats, work));
-  };
-  constexpr int kRounds = 30000;
-  improve(rates_.operations, 12.0 * lanes() * kRounds, [](int) { run_best({Job::arithmetic, kRounds}); });
-
-  constexpr size_t kWords = 4096;
-  constexpr int kUpdates = 1000;
-  std::vector<Floats> words;
-  for (int t = 0; t < threads_; ++t) words.push_back(floats(kWords));
-  improve(rates_.cached, 8.0 * kWords * kUpdates, [&](int thread) {
-    run_best({Job::update, kUpdates, words[static_cast<size_t>(thread)].get(), kWords});
-  });
-
-  const std::vector<uint64_t> table(kTableWords, 3);
-  std::vector<uint32_t> places(2048);
-  for (uint32_t i = 0; i < places.size(); ++i) places[i] = i * 37 / 100 + i % 64 / 8 * 512;
-  constexpr int kLoads = 500;
-  improve(rates_.loads, 2.0 * static_cast<double>(places.size()) * kLoads,
-          [&](int) { load(table.data(), places, kLoads); });
+  rates_.operations = std::max(rates_.operations, operations_per_second(threads_));
+  rates_.cached = std::max(rates_.cached, cached_bytes_per_second(threads_));
+  rates_.loads = std::max(rates_.loads, loads_per_second(threads_));
 
   std::vector<Command> commands(10000);
   for (uint32_t i = 0; i < commands.size(); ++i) {
@@ -230,6 +245,21 @@ void Machine::measure() {
   }
   rates_.draws = std::max(
       rates_.draws, static_cast<double>(commands.size()) / best_seconds(1, kRepeats, [&](int) { obey_all(commands); }));
+}
+
+Scaling Machine::scaling() const {
+  if (threads_ < 2) return {};
+  // In turns, because the speed of a machine that is shared changes.
+  const auto ratio = [](double (*rate)(int)) {
+    double one = 0, two = 0;
+    for (int turn = 0; turn < 3; ++turn) {
+      one = std::max(one, rate(1));
+      two = std::max(two, rate(2));
+    }
+    return two / one;
+  };
+  return {ratio(operations_per_second), ratio(loads_per_second), ratio(cached_bytes_per_second),
+          ratio(memory_bytes_per_second)};
 }
 
 Machine::Limit Machine::limit_of(const Work& work) const {

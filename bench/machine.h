@@ -15,6 +15,13 @@ struct Rates {
   double draws = 0;       // commands of small draws, read and set up one after the other on one CPU, a second
 };
 
+// What two CPUs do in the same time, for one alone: what a scene can gain by a second thread. Two threads of one core
+// give 1 where the core is busy.
+struct Scaling {
+  double operations = 0, loads = 0, cached = 0;  // as in Rates
+  double memory = 0;                             // bytes written and read in 64 MB
+};
+
 class Machine {
  public:
   Machine();
@@ -22,6 +29,8 @@ class Machine {
   void measure();
   const Rates& rates() const { return rates_; }
   int threads() const { return threads_; }
+  // All zero where there is one CPU. Takes about half a second.
+  Scaling scaling() const;
 
   struct Limit {
     double ms = 0;

@@ -95,6 +95,7 @@ int bench(const Arguments& arguments) {
     std::fprintf(stderr, "lapilli_bench: instance and device; threads\n");
     found.starts = measure_starts(found.drivers, plan, 9);
     found.two_threads = measure_two_threads(scenes_of(arguments), found.drivers.front(), plan);
+    found.scaling = machine.scaling();
   }
   if (everything && !arguments.quick) {
     std::fprintf(stderr, "lapilli_bench: growth\n");

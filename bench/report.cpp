@@ -168,9 +168,17 @@ json growth_section(const Findings& found) {
     cells.push_back(
         {scene.scene, milliseconds(scene.one_ms), milliseconds(scene.two_ms), number(scene.one_ms / scene.two_ms, 2)});
   }
+  const Scaling& machine = found.scaling;
+  for (const auto& [what, value] :
+       {std::pair("the machine: arithmetic", machine.operations), std::pair("the machine: loads", machine.loads),
+        std::pair("the machine: cache", machine.cached), std::pair("the machine: memory, 64 MB", machine.memory)}) {
+    cells.push_back({what, "", "", number(value, 2)});
+  }
   blocks.push_back(block_of(cells));
   return {{"heading", "Growth"},
-          {"text", "Last: " + found.drivers.front().label + " with one thread and with two."},
+          {"text", "Last: " + found.drivers.front().label +
+                       " with one thread and with two; the rows of the machine say what two CPUs do at best in the "
+                       "time that one takes."},
           {"blocks", blocks}};
 }
 
@@ -271,7 +279,12 @@ json results(const Findings& found, const std::vector<Goal>& goals) {
             {"operations_per_s", found.rates.operations},
             {"loads_per_s", found.rates.loads},
             {"cached_bytes_per_s", found.rates.cached},
-            {"draws_per_s", found.rates.draws}}},
+            {"draws_per_s", found.rates.draws},
+            {"two_threads_over_one",
+             {{"operations", found.scaling.operations},
+              {"loads", found.scaling.loads},
+              {"cached", found.scaling.cached},
+              {"memory", found.scaling.memory}}}}},
           {"goals", lines},
           {"series", series},
           {"starts", starts},

@@ -74,7 +74,13 @@ TEST(Goals, HoldOrNot) {
   EXPECT_EQ(find(goals, "geometric mean").verdict, Verdict::fails);
   EXPECT_EQ(find(goals, "two threads").verdict, Verdict::holds) << "the short frame does not count";
   EXPECT_EQ(find(goals, "instance + device").verdict, Verdict::fails) << "1.5 ms more";
-  EXPECT_EQ(find(goals, "limit").verdict, Verdict::fails) << "bilinear is at five times its limit";
+  EXPECT_EQ(find(goals, "limit").verdict, Verdict::holds) << "bilinear is at five times its limit, with a reason";
+  EXPECT_NE(find(goals, "limit").detail.find("bilinear 5.00× (reason given)"), std::string::npos);
+}
+
+TEST(Goals, EveryScenesDistanceHasAReason) {
+  for (const SceneEntry& entry : scenes()) EXPECT_NE(reason_for_distance(entry.name), "") << entry.name;
+  EXPECT_EQ(find(goals_of(findings_of({series_of("new", 5, 9, 9, 1)})), "limit").verdict, Verdict::fails);
 }
 
 TEST(Goals, CountPipelinesWithTheFirstFrame) {
@@ -113,6 +119,9 @@ TEST(Machine, LimitIsTheLongestOfItsParts) {
   EXPECT_GT(machine.rates().operations, 0);
   EXPECT_GT(machine.rates().loads, 0);
   EXPECT_GT(machine.rates().cached, 0);
+  if (machine.threads() > 1) {
+    EXPECT_GT(machine.scaling().operations, 0.5);
+  }
   EXPECT_STREQ(machine.limit_of({.operations = 1e12}).resource, "arithmetic");
   EXPECT_STREQ(machine.limit_of({.loads = 1e12}).resource, "loads");
   EXPECT_STREQ(machine.limit_of({.cached_bytes = 1e13}).resource, "cache");
