@@ -61,17 +61,14 @@ namespace {
 // Puts a triangle's corners and what does not depend on its edges to place `at`.
 void take_triangle(const TileTriangle& seen, uint32_t at, std::span<const Interpolation> modes, LaneCorners& corners,
                    LaneTriangles& out) {
-  const BinChunk& chunk = *seen.chunk;
-  const BinTriangle& triangle = chunk.triangles[seen.index];
   const float* values[3];
   for (size_t v = 0; v < 3; ++v) {
-    const BinVertex& vertex = chunk.vertices[triangle.v[v]];
-    corners.x[v][at] = vertex.x;
-    corners.y[v][at] = vertex.y;
-    out.inverse_w[v][at] = vertex.inverse_w;
-    values[v] = chunk.varyings.data() + vertex.varyings;
+    corners.x[v][at] = seen.x[v];
+    corners.y[v][at] = seen.y[v];
+    out.inverse_w[v][at] = seen.inverse_w[v];
+    values[v] = seen.chunk->varyings.data() + seen.varyings[v];
   }
-  out.front_facing[at] = triangle.front_facing() ? ~0u : 0u;
+  out.front_facing[at] = seen.front_facing;
   for (size_t k = 0; k < modes.size(); ++k) {
     const float a0 = values[0][k];
     const bool flat = modes[k] == Interpolation::flat;

@@ -14,10 +14,7 @@ constexpr uint32_t kQuadsWorthABatch = 6;
 
 constexpr size_t kVaryingsAhead = 8;  // triangles
 void prefetch_varyings(const TileTriangle& triangle) {
-  const BinChunk& chunk = *triangle.chunk;
-  for (const uint16_t v : chunk.triangles[triangle.index].v) {
-    __builtin_prefetch(chunk.varyings.data() + chunk.vertices[v].varyings);
-  }
+  for (const uint32_t first : triangle.varyings) __builtin_prefetch(triangle.chunk->varyings.data() + first);
 }
 
 }  // namespace

@@ -358,15 +358,28 @@ void TileWorker::keep_pending_setups() {
 }
 
 uint32_t TileWorker::add_number() {
-  const BinChunk& chunk = *triangle_.chunk;
-  for (const uint16_t v : chunk.triangles[triangle_.index].v) {
-    __builtin_prefetch(chunk.varyings.data() + chunk.vertices[v].varyings);
-  }
   if (deferred_draws_.empty() || !share_fragments(*deferred_draws_.back().call, *draw_.call)) {
     deferred_draws_.push_back({draw_.call, visibility_.next_number()});
   }
   const uint32_t draw = static_cast<uint32_t>(deferred_draws_.size() - 1);
-  return triangle_.number = visibility_.add({triangle_.chunk, triangle_.index, draw, 0});
+  const BinChunk& chunk = *triangle_.chunk;
+  const BinTriangle& triangle = chunk.triangles[triangle_.index];
+  triangle_.number = visibility_.next_number();
+  TileTriangle& seen = visibility_.add();
+  seen.chunk = &chunk;
+  seen.index = triangle_.index;
+  seen.draw = draw;
+  seen.setup = 0;
+  seen.front_facing = triangle.front_facing() ? ~0u : 0u;
+  for (size_t v = 0; v < 3; ++v) {
+    const BinVertex& vertex = chunk.vertices[triangle.v[v]];
+    __builtin_prefetch(chunk.varyings.data() + vertex.varyings);
+    seen.x[v] = vertex.x;
+    seen.y[v] = vertex.y;
+    seen.inverse_w[v] = vertex.inverse_w;
+    seen.varyings[v] = vertex.varyings;
+  }
+  return triangle_.number;
 }
 
 // --- the end of the tile --------------------------------------------------------------------------------------------

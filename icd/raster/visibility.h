@@ -20,11 +20,16 @@ struct LaneNumberFunctions {
 const LaneNumberFunctions& lane_number_functions();
 
 // A triangle that somebody may have to come back to in this tile, to shade it or to know its depths.
+// What shading needs of its vertices is copied while they are at hand: the bins are far apart in memory.
 struct TileTriangle {
   const BinChunk* chunk;
-  uint32_t index;  // in chunk->triangles
-  uint32_t draw;   // counted within the tile
-  uint32_t setup;  // where its TriangleSetup is (SetupRing)
+  uint32_t index;         // in chunk->triangles
+  uint32_t draw;          // counted within the tile
+  uint32_t setup;         // where its TriangleSetup is (SetupRing)
+  uint32_t front_facing;  // ~0 or 0
+  int32_t x[3], y[3];     // as in BinVertex
+  float inverse_w[3];
+  uint32_t varyings[3];  // in chunk->varyings
 };
 
 class Visibility {
@@ -36,11 +41,8 @@ class Visibility {
     whole_ = mixed_ = 0;
     triangles_.assign(1, {});
   }
-  // Numbers are given in the order of the API, from 1.
-  uint32_t add(const TileTriangle& triangle) {
-    triangles_.push_back(triangle);
-    return static_cast<uint32_t>(triangles_.size() - 1);
-  }
+  // Numbers are given in the order of the API, from 1; the new one is for the caller to fill.
+  TileTriangle& add() { return triangles_.emplace_back(); }
   uint32_t next_number() const { return static_cast<uint32_t>(triangles_.size()); }
   TileTriangle& triangle(uint32_t number) { return triangles_[number]; }
   const TileTriangle& triangle(uint32_t number) const { return triangles_[number]; }
