@@ -4,6 +4,7 @@
 #include "base/removals.h"
 #include "shader/spirv/test/run_shader.h"
 #include "shaders/counting.frag.h"
+#include "shaders/depth.frag.h"
 #include "shaders/interface.frag.h"
 #include "shaders/interface.vert.h"
 #include "shaders/texture.frag.h"
@@ -230,7 +231,7 @@ TEST_F(Stage, DeferrableIfNothingButTheLastColourCanBeSeen) {
   EXPECT_FALSE(code.deferrable || code.writes_color);
 }
 
-TEST_F(Stage, PixelsStandAloneUnlessTheProgramLooksAtOtherLanes) {
+TEST_F(Stage, PixelsStandAloneUnlessTheProgramLooksAtOtherLanesOrItsDepth) {
   make();
   EXPECT_FALSE(code.deferrable || code.pixels_alone);
   formats[1] = VK_FORMAT_UNDEFINED;  // the shader does not write it
@@ -238,6 +239,10 @@ TEST_F(Stage, PixelsStandAloneUnlessTheProgramLooksAtOtherLanes) {
   EXPECT_TRUE(code.deferrable && code.pixels_alone);
   formats[2] = VK_FORMAT_UNDEFINED;
   make(shaders::kTextureFrag);
+  EXPECT_TRUE(code.deferrable);
+  EXPECT_FALSE(code.pixels_alone);
+  make(shaders::kDepthFrag);
+  EXPECT_EQ(count(code.fragment, Opcode::frag_depth), 1u);
   EXPECT_TRUE(code.deferrable);
   EXPECT_FALSE(code.pixels_alone);
 }
