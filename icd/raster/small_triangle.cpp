@@ -45,7 +45,10 @@ HWY_INLINE M set_up_edges(TriangleGroup& group, uint32_t i, I centre_x, I centre
   return lt(extents, broadcast(uint32_t{2 * TriangleGroup::kMostExtent})) & lt(distance, broadcast(1u << 16));
 }
 
-HWY_INLINE M set_up_bounds(TriangleGroup& group, uint32_t i, I tile_x, I tile_y, const PixelRect& tile) {
+struct Sizes {
+  M small, tiny;
+};
+HWY_INLINE Sizes set_up_bounds(TriangleGroup& group, uint32_t i, I tile_x, I tile_y, const PixelRect& tile) {
   U words[2];
   load_interleaved<2>(group.bounds[i], words);
   const auto low = broadcast(0xFFFFu);
@@ -61,17 +64,50 @@ HWY_INLINE M set_up_bounds(TriangleGroup& group, uint32_t i, I tile_x, I tile_y,
   const I one = broadcast(1);
   const I columns = shift_right<3>(x1 - one) - shift_right<3>(x0) + one;
   const I rows = shift_right<3>(y1 - one) - shift_right<3>(y0) + one;
-  return lt(x0, x1) & lt(y0, y1) & le(columns * rows, broadcast(TriangleGroup::kMostBlocks));
+  const I three = broadcast(3);
+  return {lt(x0, x1) & lt(y0, y1) & le(columns * rows, broadcast(TriangleGroup::kMostBlocks)),
+          lt(x1 - x0, three) & lt(y1 - y0, three)};
 }
 
 void set_up(TriangleGroup& group, uint32_t count, uint32_t tile_x, uint32_t tile_y, const PixelRect& tile) {
   const int32_t x = static_cast<int32_t>(tile_x), y = static_cast<int32_t>(tile_y);
-  uint64_t small = 0;
+  uint64_t small = 0, tiny = 0;
   for (uint32_t i = 0; i < count; i += kVectorLanes) {
     const M fits = set_up_edges(group, i, broadcast(256 * x + 128), broadcast(256 * y + 128));
-    small |= bits_of(fits & set_up_bounds(group, i, broadcast(x), broadcast(y), tile)) << i;
+    const Sizes sizes = set_up_bounds(group, i, broadcast(x), broadcast(y), tile);
+    small |= bits_of(fits & sizes.small) << i;
+    tiny |= bits_of(sizes.tiny) << i;
   }
   group.small = static_cast<uint32_t>(small);
+  group.tiny = static_cast<uint32_t>(small & tiny);
+}
+
+// A vector of triangles, one of their four pixels after the other.
+void cover_tiny(TriangleGroup& group, uint32_t count, float min_depth, float max_depth) {
+  const DepthPlane range = {0, 0, 0, min_depth, max_depth};
+  for (uint32_t i = 0; i < count; i += kVectorLanes) {
+    const I x0 = load<I>(group.x0 + i), y0 = load<I>(group.y0 + i);
+    const I two = broadcast(2);
+    const M one_column = lt(load<I>(group.x1 + i) - x0, two), one_row = lt(load<I>(group.y1 + i) - y0, two);
+    const D z0 = load_d(group.z[0] + i), k1 = load_d(group.k1 + i), k2 = load_d(group.k2 + i);
+    U covered = zero_u();
+    for (uint32_t p = 0; p < 4; ++p) {
+      const U place = (as_u(x0) | shift_left<16>(as_u(y0))) + broadcast(p % 2 | p / 2 << 16);
+      I e[3];
+      for (int k = 0; k < 3; ++k) {
+        e[k] = as_i(shift_left<8>(as_u(dot_of_halves(load<U>(group.steps[k] + i), place)))) + load<I>(group.c[k] + i);
+      }
+      M outside = lt(e[0] | e[1] | e[2], zero_i());
+      if (p % 2 != 0) outside = outside | one_column;
+      if (p / 2 != 0) outside = outside | one_row;
+      covered = covered | select(outside, zero_u(), broadcast(1u << p));
+      const D exact1 = to_double(e[1] - load<I>(group.less[1] + i));
+      const D exact2 = to_double(e[2] - load<I>(group.less[2] + i));
+      const F z = clamp_depth(to_float((exact1 * k1 + exact2 * k2) + z0), range);
+      store(canonical(z), group.tiny_depth[p] + i);
+    }
+    store(covered, group.tiny_covered + i);
+  }
 }
 
 // From a block's first pixel, as 16-bit numbers: x in the low half.
@@ -126,7 +162,7 @@ SmallDrawn draw(const TriangleGroup& group, uint32_t t, uint32_t x, uint32_t y, 
 
 extern const SmallTriangleFunctions kSmallTriangles;
 const SmallTriangleFunctions kSmallTriangles = {
-    set_up, {draw<0>, draw<1>, draw<2>, draw<3>, draw<4>, draw<5>, draw<6>, draw<7>}};
+    set_up, cover_tiny, {draw<0>, draw<1>, draw<2>, draw<3>, draw<4>, draw<5>, draw<6>, draw<7>}};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lapilli

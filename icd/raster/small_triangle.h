@@ -32,6 +32,12 @@ struct TriangleGroup {
   alignas(64) uint32_t steps[3][kMost];
   alignas(64) double k1[kMost], k2[kMost];  // DepthPlane
 
+  // Those of the small ones with bounds of at most 2x2 pixels: pixel p is (x0 + p % 2, y0 + p / 2).
+  uint32_t tiny;
+  // What cover_tiny says of them: bit p of the pixels that are covered, and their depths.
+  alignas(64) uint32_t tiny_covered[kMost];
+  alignas(64) float tiny_depth[4][kMost];
+
   // Puts a triangle in place i.
   void put(uint32_t i, const BinChunk& chunk, const BinTriangle& triangle) {
     __builtin_memcpy(bounds[i], &triangle.x0, sizeof bounds[i]);
@@ -62,8 +68,18 @@ using DrawSmallTriangle = SmallDrawn(const TriangleGroup& group, uint32_t i, uin
 struct SmallTriangleFunctions {
   // From what was put into the first `count` places. `tile`: what of it may be drawn to, from its first pixel.
   void (*set_up)(TriangleGroup& group, uint32_t count, uint32_t tile_x, uint32_t tile_y, const PixelRect& tile);
+  // Tiny ones of runs with this range of depths and without bias.
+  void (*cover_tiny)(TriangleGroup& group, uint32_t count, float min_depth, float max_depth);
   DrawSmallTriangle* draw[8];  // by VkCompareOp; without depths: coverage alone
 };
 const SmallTriangleFunctions& small_triangle_functions();
+
+// compare_depth of one pixel; the bits of a VkCompareOp are less, equal and greater.
+inline bool passes(VkCompareOp compare, float depth, float stored) {
+  static_assert(VK_COMPARE_OP_LESS == 1 && VK_COMPARE_OP_EQUAL == 2 && VK_COMPARE_OP_GREATER == 4);
+  const int relation = int{depth < stored} | int{depth == stored} << 1 | int{depth > stored} << 2;
+  const bool unordered_passes = (compare & VK_COMPARE_OP_NOT_EQUAL) == VK_COMPARE_OP_NOT_EQUAL;
+  return (compare & relation) != 0 || (relation == 0 && unordered_passes);
+}
 
 }  // namespace lapilli

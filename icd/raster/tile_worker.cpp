@@ -91,7 +91,11 @@ void TileWorker::draw_triangles(uint32_t tile, const BinSet& set) {
       const BinRun& run = chunk->run_of(chunk->triangles[index]);
       if (&run != draw_.run) begin_draw(run);
       triangle_ = {chunk, index, 0, nullptr, false};
-      (group_.small >> place & 1) != 0 ? draw_small(place) : draw_triangle();
+      if (draw_.by_pixel && (group_.tiny >> place & 1) != 0) {
+        draw_tiny(place);
+      } else {
+        (group_.small >> place & 1) != 0 ? draw_small(place) : draw_triangle();
+      }
     }
     if (first % kTrianglesPerLook == 0 && pass_->limits->read_clock()) break;
   }
@@ -122,6 +126,7 @@ void TileWorker::set_up_group(size_t first, size_t count) {
     const auto& [chunk, index] = listed_[first + place];
     group_.put(place, *chunk, chunk->triangles[index]);
   }
+  tiny_run_ = nullptr;
   small_triangles_->set_up(group_, static_cast<uint32_t>(count), tile_x_, tile_y_, tile_rect_);
 }
 
@@ -145,6 +150,7 @@ void TileWorker::begin_draw(const BinRun& run) {
   }
   draw_.counts = draw_.shading != Shading::in_order && call.samples_passed != nullptr;
   draw_.tallies = draw_.counts || call.ledger != nullptr;
+  draw_.by_pixel = draw_.shading != Shading::in_order && !draw_.tallies && !run.depth_bias;
   if (programs.depth_test) begin_depth();
 }
 
@@ -243,6 +249,30 @@ void TileWorker::draw_small(uint32_t place) {
       if (deferred) number();
       if (draw_.shading == Shading::in_order) shade_in_order(block, drawn.passed);
     }
+  }
+}
+
+// A tiny one, pixel by pixel: most cover one or two.
+void TileWorker::draw_tiny(uint32_t place) {
+  if (tiny_run_ != draw_.run) {
+    tiny_run_ = draw_.run;
+    small_triangles_->cover_tiny(group_, TriangleGroup::kMost, tiny_run_->min_depth, tiny_run_->max_depth);
+  }
+  for (uint32_t left = group_.tiny_covered[place]; left != 0; left &= left - 1) {
+    const uint32_t pixel = static_cast<uint32_t>(std::countr_zero(left));
+    const uint32_t x = static_cast<uint32_t>(group_.x0[place]) + pixel % 2;
+    const uint32_t y = static_cast<uint32_t>(group_.y0[place]) + pixel / 2;
+    const uint32_t block = bit_of(x / kBlockSize, y / kBlockSize), lane = bit_of(x % kBlockSize, y % kBlockSize);
+    if (draw_.early_depth) {
+      const float depth = group_.tiny_depth[pixel][place];
+      float& stored = depths_of(block)[lane];
+      if (!passes(draw_.compare, depth, stored)) continue;
+      if (draw_.depth_write) {
+        stored = depth;
+        depth_.touch(block);
+      }
+    }
+    if (draw_.shading == Shading::deferred) visibility_.mixed_pixels(block)[lane] = number();
   }
 }
 

@@ -39,8 +39,9 @@ class TileWorker {
     const BinRun* run = nullptr;
     Shading shading = Shading::none;
     bool early_depth = false, late_depth = false, depth_write = false;
-    bool counts = false;   // samples that pass are counted here, not by the program
-    bool tallies = false;  // somebody wants the numbers below
+    bool counts = false;    // samples that pass are counted here, not by the program
+    bool tallies = false;   // somebody wants the numbers below
+    bool by_pixel = false;  // tiny triangles are drawn pixel by pixel
     VkCompareOp compare = VK_COMPARE_OP_ALWAYS;
     uint64_t covered = 0, passed = 0;  // pixels
     uint64_t judged_blocks = 0;        // without a depth test of their own
@@ -71,6 +72,7 @@ class TileWorker {
   void set_up_group(size_t first, size_t count);
   void draw_triangle();
   void draw_small(uint32_t place);
+  void draw_tiny(uint32_t place);
   double depth_at_first_vertex(uint32_t place) const;
   void count_covered(const TileCoverage::Blocks& blocks);
   BlockVerdicts judge_blocks(const PixelRect& rect);
@@ -116,6 +118,7 @@ class TileWorker {
   TriangleSetup setup_;
   TriangleDepth triangle_depth_;
   TriangleGroup group_;
+  const BinRun* tiny_run_ = nullptr;  // whose depth range group_.tiny_depth has
   TileCoverage coverage_;
   BlockRanges triangle_ranges_;
   LaneTriangles lane_triangles_;
