@@ -62,8 +62,9 @@ struct DrawCall {
 
 // Whether nothing can tell fragments of the two apart, so that they may share a batch.
 inline bool share_fragments(const DrawCall& a, const DrawCall& b) {
-  if (a.state != b.state || a.samples_passed != b.samples_passed || a.ledger != b.ledger) return false;
-  return a.ledger == nullptr && (a.resources == b.resources || !a.state->programs->fragment_reads_resources);
+  if (&a == &b) return true;
+  if (a.state != b.state || a.samples_passed != b.samples_passed || a.ledger != nullptr) return false;
+  return a.resources == b.resources || !a.state->programs->fragment_reads_resources;
 }
 
 }  // namespace lapilli

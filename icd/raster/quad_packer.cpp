@@ -45,7 +45,7 @@ void QuadPacker::begin_tile(const TilePlanes& planes, uint32_t tile_x, uint32_t 
 }
 
 void QuadPacker::begin_draw(const DrawCall& draw, bool count_samples) {
-  if (draw_ == &draw || (draw_ != nullptr && share_fragments(*draw_, draw))) return;
+  if (draw_ != nullptr && share_fragments(*draw_, draw)) return;
   flush();
   draw_ = &draw;
   prepared_ = false;
