@@ -7,6 +7,7 @@
 #include "shaders/discard_checker.frag.h"
 #include "shaders/early_discard.frag.h"
 #include "shaders/helper_edges.frag.h"
+#include "shaders/pixel_address.frag.h"
 
 namespace lapilli::conformance {
 namespace {
@@ -116,6 +117,15 @@ TEST(Deferral, HiddenPixelsAreNoHelpers) {
   expect_pixels(draw(layers), [](uint32_t x, uint32_t y) {
     if (x % 2 == 1) return kBlueTexel;
     return x / 2 + y / 2 == kSide / 2 - 1 ? rgba(255, 255, 255, 255) : kRedTexel;
+  });
+}
+
+// Blocks that two triangles are seen in, with nothing else drawn.
+TEST(Deferral, PixelsOfATornBlockKnowWhereTheyAre) {
+  Layer layer = opaque(0.5f, kRed, {{8, 8}, {8, 8}});
+  layer.state.fragment_shader = shaders::kPixelAddressFrag;
+  expect_pixels(draw({layer}), [](uint32_t x, uint32_t y) {
+    return x / 8 == 1 && y / 8 == 1 ? rgba(x, y, 0, 255) : rgba(0, 0, 0, 0);
   });
 }
 

@@ -294,6 +294,18 @@ TEST_F(FrontEndTest, DrawsShareVerticesWhereNothingCanTell) {
   EXPECT_EQ(collect(draws).vertices, 27u);
 }
 
+// The third draw has the second one's instance, and the vertices of the first one are of another.
+TEST_F(FrontEndTest, ListsBetweenIndexedDrawsOfOtherInstances) {
+  const GridMesh mesh(2, 2);
+  TestProgram program;
+  program.bind(mesh.vertices);
+  std::vector<DrawCall> draws = {program.draw_indexed(mesh.indices), program.draw(3),
+                                 program.draw_indexed(mesh.indices)};
+  EXPECT_EQ(collect(draws).vertices, 9u + 3);
+  draws[1].first_instance = draws[2].first_instance = 5;
+  EXPECT_EQ(collect(draws).vertices, 9u + 3 + 9);
+}
+
 // Draws of 1 to 90 triangles, so that batches hold several draws and draws need several batches; vertices that two
 // draws have in common have other varyings in each.
 TEST_P(FrontEndTargets, DrawsWithOtherPushConstantsKeepTheirs) {

@@ -67,6 +67,7 @@ uint32_t VertexStage::add(uint32_t instance, std::span<uint32_t> vertices) {
 
 void VertexStage::add_distinct(uint32_t instance, std::span<uint32_t> vertices) {
   const size_t before = vertex_.size();
+  if (before == 0 || instance_[before - 1] != instance) instance_first_ = static_cast<uint32_t>(before);
   vertex_.resize(before + vertices.size());
   instance_.resize(before + vertices.size());
   std::copy(vertices.begin(), vertices.end(), vertex_.data() + before);

@@ -82,8 +82,8 @@ VkResult allocate_memory(DeviceContext& device, const VkMemoryAllocateInfo& info
 // Linux 5.14; older kernels refuse, and the pages come with the first touch.
 void populate(const DeviceMemory& memory, uint64_t offset, uint64_t size) {
   constexpr int kPopulateWrite = 23;  // MADV_POPULATE_WRITE
-  constexpr uint64_t kPage = 4096;
-  const uint64_t first = offset / kPage * kPage;
+  constexpr uint64_t kLargestPage = 65536;
+  const uint64_t first = offset / kLargestPage * kLargestPage;
   madvise(memory.data + first, offset + size - first, kPopulateWrite);
 }
 

@@ -130,6 +130,15 @@ TEST_F(Ledger, OutputsThatAreMasked) {
   EXPECT_GE(count(text, "draw 0", "outputs"), 128u * 64) << text;
 }
 
+// Both triangles of the rectangle are shaded in one batch of the 8x8 block that they cover, each pixel once: the
+// program looks at no neighbours, so that the quads along the diagonal need no helpers.
+TEST_F(Ledger, PixelsOfABlockAreShadedTogether) {
+  const std::string text = draw(scene->add_pipeline(), [&](CommandBuffer& commands) {
+    scene->draw(commands, -1, -1, -1 + 2 * 8 / 128.0f, -1 + 2 * 8 / 64.0f, 0.5f, 0);
+  });
+  EXPECT_NE(text.find("  draw 0: 6 vertices, 64 fragments, "), std::string::npos) << text;
+}
+
 TEST_F(Ledger, NothingIsPrintedWhereNothingIsDrawn) {
   EXPECT_EQ(draw(scene->add_pipeline(), [](CommandBuffer&) {}), "");
 }

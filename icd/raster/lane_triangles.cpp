@@ -83,7 +83,7 @@ void take_triangle(const TileTriangle& seen, uint32_t at, std::span<const Interp
 void set_up_lanes(const Visibility& visibility, const uint32_t* numbers, uint64_t pixels, uint32_t x, uint32_t y,
                   std::span<const Interpolation> modes, LaneTriangles& out) {
   const LaneNumberFunctions& functions = lane_number_functions();
-  LaneCorners corners;
+  LaneCorners corners = {};
   // A triangle once, while there are few.
   uint32_t count = 0;
   std::fill_n(out.slot, kBatchLanes, 0u);

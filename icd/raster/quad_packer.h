@@ -43,7 +43,7 @@ class QuadPacker {
   bool out_of_memory_ = false;
   Execution execution_;
   FragmentBatch batch_{};
-  FragmentBatch block_batch_{};  // of one triangle in one block
+  FragmentBatch block_batch_{};  // of one block: of one triangle, or with lane_triangles
   uint32_t count_ = 0;           // quads in batch_
   uint64_t lanes_ = 0;           // covered pixels in batch_
   uint32_t tile_x_ = 0, tile_y_ = 0;

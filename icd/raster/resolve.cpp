@@ -10,7 +10,7 @@ namespace {
 // A block with more triangles is taken apart quad by quad.
 constexpr int kMostPartsOfABlock = 4;
 // From so many quads of a draw on, a block with several triangles is a batch of its own where the program lets it be.
-constexpr uint32_t kQuadsWorthABatch = 6;
+constexpr uint32_t kQuadsWorthLanes = 6;
 
 constexpr size_t kVaryingsAhead = 8;  // triangles
 void prefetch_varyings(const TileTriangle& triangle) {
@@ -70,7 +70,7 @@ void TileWorker::collect_pending() {
       const uint64_t pixels = functions.between(seen, first, end) & rest;
       if (end - first == 1 || (functions.equal(seen, triangle) & pixels) == pixels) {
         pending_.push_back({pixels, triangle, static_cast<uint8_t>(block), kManyQuads});
-      } else if (count_quads(live_quads(pixels)) >= kQuadsWorthABatch &&
+      } else if (count_quads(live_quads(pixels)) >= kQuadsWorthLanes &&
                  deferred_draws_[draw].call->state->programs->pixels_alone) {
         pending_.push_back({pixels, triangle, static_cast<uint8_t>(block), kManyTriangles});
       } else {

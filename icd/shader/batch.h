@@ -78,7 +78,7 @@ struct LaneTriangles {
 };
 
 struct FragmentBatch {
-  const TriangleSetup* triangle[kBatchQuads];  // never null; unused quads repeat a used one
+  const TriangleSetup* triangle[kBatchQuads];  // not null without lane_triangles; unused quads repeat a used one
   alignas(64) uint16_t x[kBatchQuads];         // framebuffer pixel of the quad's lane 0 (both even)
   alignas(64) uint16_t y[kBatchQuads];
   alignas(64) uint16_t quad_in_tile[kBatchQuads];

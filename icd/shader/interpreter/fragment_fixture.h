@@ -1,6 +1,7 @@
 // A fragment batch with triangles, depth and colour planes, for tests and benchmarks of single ops.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -103,6 +104,7 @@ struct FragmentTest {
       for (size_t i = 0; i < 9; ++i) lane_triangles.varyings[i / 3][i % 3][slot] = varyings[slot % 4][i];
     }
     batch.lane_triangles = &lane_triangles;
+    std::fill_n(batch.triangle, kBatchQuads, nullptr);
   }
 
   const TriangleSetup& triangle(uint32_t lane) const {

@@ -48,7 +48,7 @@ void fragment_builtin(const FragmentBatch& batch, BuiltIn which, std::byte* d) {
     const float y = static_cast<float>(batch.y[quad]);
     const QuadF columns = QuadF{x, x, x, x} + QuadF{0.5f, 1.5f, 0.5f, 1.5f};
     const QuadF rows = QuadF{y, y, y, y} + QuadF{0.5f, 0.5f, 1.5f, 1.5f};
-    const uint32_t facing = batch.triangle[quad]->front_facing;
+    const uint32_t facing = which == BuiltIn::front_facing ? batch.triangle[quad]->front_facing : 0;
     const QuadU facings = {facing, facing, facing, facing};
     const void* const source = which == BuiltIn::frag_coord_x   ? static_cast<const void*>(&columns)
                                : which == BuiltIn::frag_coord_y ? static_cast<const void*>(&rows)
