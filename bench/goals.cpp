@@ -189,60 +189,47 @@ std::string reason_for_distance(std::string_view scene) {
   static constexpr Reason kReasons[] = {
       {"clear",
        "The stores take about half of a frame this short; the rest is waking the queue's thread and the worker, and "
-       "the "
-       "fence, which the limit does not count."},
+       "the fence, which the limit does not count."},
       {"triangle",
-       "The limit counts the stores alone; coordinates of each pixel with true divisions (27 %), packing and the copy "
-       "of "
+       "The limit counts the stores alone; coordinates and attributes of each pixel (27 %), packing and the copy of "
        "the tile to the image (25 %) and waking threads are the frame."},
       {"layers_btf",
        "The limit counts one shading a pixel; each of the 64 layers is also set up, judged and entered in every tile, "
-       "and "
-       "the shading goes op by op through registers in memory."},
+       "and the shading goes op by op through registers in memory."},
       {"layers_ftb",
        "As layers_btf: setting up and rejecting 63 hidden layers in every tile is not counted, nor that an op loads "
-       "and "
-       "stores registers (rsqrt, coordinates, packing, the copy of the tile)."},
+       "and stores registers (rsqrt, coordinates, packing, the copy of the tile)."},
       {"blend",
-       "Each layer unpacks, blends exactly and packs every pixel (34 %) and computes its coordinates with true "
-       "divisions "
+       "Each layer unpacks, blends exactly and packs every pixel (31 %) and computes its attributes from exact edges "
        "(32 %); the limit counts the tile's bytes in the cache alone."},
       {"bilinear",
        "The limit counts two loads a pixel; addresses with wrapping, unpacking to float and exact weights are 48 % of "
-       "the "
-       "frame, coordinates of the pixels 13 %, packing and the copy of the tile 17 %."},
+       "the frame, coordinates of the pixels 13 %, packing and the copy of the tile 17 %."},
       {"trilinear",
        "As bilinear, with two levels for most pixels and a level of detail from derivatives (9 %), which the limit "
-       "does "
-       "not count."},
+       "does not count."},
       {"noise",
        "An interpreter loads and stores operands around each operation where compiled code keeps them in registers; "
-       "floor "
-       "and fract are several operations, counted as one."},
+       "floor and fract are several operations, counted as one."},
       {"mandelbrot",
        "A batch of 64 lanes runs until its last lane has escaped, and the masks of the loop's ways out (compare, "
-       "branch, "
-       "select: 40 %) cost as much as the arithmetic that is counted."},
+       "branch, select: 40 %) cost as much as the arithmetic that is counted."},
       {"ray_march",
        "Square roots (22 %) take the time of many of the operations they are counted as one of; lanes of a batch wait "
-       "for "
-       "the longest ray, and masks and moves of the nested loops are 25 %."},
+       "for the longest ray, and masks and moves of the nested loops are 25 %."},
       {"grid",
        "The limit counts the bytes of vertices and picture; setting up, sorting and covering a million triangles of "
        "about a pixel with exact integers is all of the frame."},
       {"tiny",
        "As grid, with a vertex batch lane for each corner and a list entry for each triangle; each small triangle "
-       "waits "
-       "for memory when its tile reads it again."},
+       "waits for memory when its tile reads it again."},
       {"phong",
        "Triangles of some 20 pixels: set-up, coverage and depth tests of each are 35 % and nothing of it is counted; "
-       "pow "
-       "and rsqrt are counted as one operation each."},
+       "pow and rsqrt are counted as one operation each."},
       {"phong_msaa", "As phong, and each sample has its own coverage and depth test."},
       {"draws",
        "The limit is a draw's state and triangle in order or the picture's bytes; ours sorts each draw into tiles, "
-       "covers, "
-       "packs quads of which edges leave a third of the lanes idle, and shades them."},
+       "covers, packs quads of which edges leave a third of the lanes idle, and shades them."},
       {"descriptors",
        "As draws, and each draw's texture (4 KB) comes from beyond the nearer caches in every tile that it touches: "
        "sampling is 28 % of the frame."},
@@ -251,14 +238,12 @@ std::string reason_for_distance(std::string_view scene) {
        "program is bound anew in each tile that it touches."},
       {"shadow_map",
        "Two passes over small triangles (set-up, coverage, depth tests: 40 %) and nine lookups a pixel, of which the "
-       "limit "
-       "counts the loads and not the comparisons and addresses."},
+       "limit counts the loads and not the comparisons and addresses."},
       {"saxpy",
        "Bounds of each access, invocation numbers and the change from one batch of 64 to the next are most of the "
        "instructions; the limit is memory."},
       {"nbody",
-       "rsqrt (26 %) is counted as one operation, and the loop's loads, masks and "
-       "bounds are a third of the frame."},
+       "rsqrt (26 %) is counted as one operation, and the loop's loads, masks and bounds are a third of the frame."},
       {"nbody_shared", "As nbody, and the loads and barriers of shared memory."},
   };
   for (const Reason& reason : kReasons) {
