@@ -29,7 +29,8 @@ class BlockEdge {
   }
   HWY_INLINE D next() {
     constexpr int kVectorsPerRow = 16 / kVectorLanes;
-    const D here = column_ == 0 ? row_ : row_ + broadcast(a_ * (column_ * (kVectorLanes / 2)));
+    constexpr int kColumns = kVectorLanes / 2;  // of a vector, which has two rows
+    const D here = column_ == 0 ? row_ : row_ + broadcast(a_ * (column_ * kColumns));
     column_ = (column_ + 1) % kVectorsPerRow;
     if (column_ == 0) row_ = row_ + row_step_;
     return here;
