@@ -82,6 +82,9 @@ void set_up(TriangleGroup& group, uint32_t count, uint32_t tile_x, uint32_t tile
   group.tiny = static_cast<uint32_t>(small & tiny);
 }
 
+// An edge function, or one of each lane's triangle, at pixels of the tile.
+HWY_INLINE I edge_at(U steps, I c, U places) { return as_i(shift_left<8>(as_u(dot_of_halves(steps, places)))) + c; }
+
 // A vector of triangles, one of their four pixels after the other.
 void cover_tiny(TriangleGroup& group, uint32_t count, float min_depth, float max_depth) {
   const DepthPlane range = {0, 0, 0, min_depth, max_depth};
@@ -95,7 +98,7 @@ void cover_tiny(TriangleGroup& group, uint32_t count, float min_depth, float max
       const U place = (as_u(x0) | shift_left<16>(as_u(y0))) + broadcast(p % 2 | p / 2 << 16);
       I e[3];
       for (int k = 0; k < 3; ++k) {
-        e[k] = as_i(shift_left<8>(as_u(dot_of_halves(load<U>(group.steps[k] + i), place)))) + load<I>(group.c[k] + i);
+        e[k] = edge_at(load<U>(group.steps[k] + i), load<I>(group.c[k] + i), place);
       }
       M outside = lt(e[0] | e[1] | e[2], zero_i());
       if (p % 2 != 0) outside = outside | one_column;
@@ -120,9 +123,8 @@ constexpr BlockPlaces kPlaces = [] {
   return places;
 }();
 
-// An edge function at pixels of the tile.
 HWY_INLINE I edge_at(const TriangleGroup& group, uint32_t t, int e, U places) {
-  return as_i(shift_left<8>(as_u(dot_of_halves(broadcast(group.steps[e][t]), places)))) + broadcast(group.c[e][t]);
+  return edge_at(broadcast(group.steps[e][t]), broadcast(group.c[e][t]), places);
 }
 
 // With few branches: which rows a small triangle reaches, and whether it is seen, nobody could predict.
