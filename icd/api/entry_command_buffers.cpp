@@ -5,7 +5,9 @@ namespace lapilli::entry {
 
 VKAPI_ATTR VkResult VKAPI_CALL vkCreateCommandPool(VkDevice device, const VkCommandPoolCreateInfo*,
                                                    const VkAllocationCallbacks* callbacks, VkCommandPool* pool) {
-  return create_command_pool(*Device::from(device), callbacks, pool);
+  Device& owner = *Device::from(device);
+  owner.queue->start();  // who records commands will submit them
+  return create_command_pool(owner, callbacks, pool);
 }
 
 VKAPI_ATTR void VKAPI_CALL vkDestroyCommandPool(VkDevice, VkCommandPool pool, const VkAllocationCallbacks*) {

@@ -30,7 +30,8 @@ bool take(std::atomic<std::uint64_t>& left, bool front, std::size_t& index) {
 
 ThreadPool::ThreadPool(unsigned workers, std::chrono::nanoseconds spin) : size_(workers), spin_(spin) {}
 
-void ThreadPool::start_threads() {
+void ThreadPool::start() {
+  if (size_ == 1 || workers_ != nullptr) return;
   workers_.reset(new (std::nothrow) Worker[size_]);
   if (workers_ == nullptr) return;
   // Threads inherit the mask: no signal of the application can arrive on one before it has blocked it.
@@ -122,7 +123,7 @@ void ThreadPool::run(std::size_t count, Call entry, void* body) {
   [[maybe_unused]] const bool was_busy = busy_.exchange(true, std::memory_order_acquire);
   assert(!was_busy && "parallel_for within parallel_for, or from two threads");
   assert(count < kEnd);
-  if (size_ > 1 && count > 1 && workers_ == nullptr) start_threads();
+  if (count > 1) start();
   if (running_ == 1 || count == 1) {
     for (std::size_t index = 0; index < count; ++index) entry(body, index, 0);
     busy_.store(false, std::memory_order_release);

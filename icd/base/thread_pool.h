@@ -20,8 +20,9 @@ namespace lapilli {
 // A worker that wakes up too late finds the loop closed and never sees it.
 class ThreadPool {
  public:
-  // The caller of parallel_for is one of `workers` (at least 1); the others are threads with all signals blocked. The
-  // first loop makes them, as many as the system gives. `spin`: how long threads wait awake before they sleep.
+  // The caller of parallel_for is one of `workers` (at least 1); the others are threads with all signals blocked.
+  // start() or the first loop makes them, as many as the system gives. `spin`: how long threads wait awake before they
+  // sleep.
   explicit ThreadPool(unsigned workers, std::chrono::nanoseconds spin = {});
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
@@ -29,6 +30,9 @@ class ThreadPool {
 
   // Workers that a loop may have.
   unsigned size() const { return size_; }
+
+  // Makes the threads if they are not there yet; not during a loop.
+  void start();
 
   // Calls body(index, worker) once for each index below count (< 2^32), in no fixed order, and returns when all calls
   // have returned. A worker's indices are neighbours, and mostly those that it had in the last loop of as many: what
@@ -56,7 +60,6 @@ class ThreadPool {
     pthread_t thread = {};  // but for worker 0
   };
 
-  void start_threads();
   void run(std::size_t count, Call entry, void* body);
   void work(unsigned worker);
   bool join_open_loop();

@@ -78,6 +78,15 @@ Queue::~Queue() {
   thread_.join();
 }
 
+void Queue::make_thread() {
+  if (!thread_.joinable()) thread_ = start_thread_without_signals([this] { work(); });
+}
+
+void Queue::start() {
+  const std::scoped_lock lock(device_.sync.mutex);
+  make_thread();
+}
+
 Submission& Queue::add_to(SubmissionList& list) {
   Submission* submission = unused_.pop();
   if (submission == nullptr) submission = new Submission;
@@ -93,7 +102,7 @@ VkResult Queue::push(std::span<const Batch> batches, Fence* fence, const Fill& f
   if (device_.lost) return VK_ERROR_DEVICE_LOST;
   {
     const std::scoped_lock lock(device_.sync.mutex);
-    if (!thread_.joinable()) thread_ = start_thread_without_signals([this] { work(); });
+    make_thread();
     SubmissionList added;
     Submission* last = nullptr;
     uint64_t count = 0;
@@ -143,6 +152,7 @@ void Queue::work() {
   pthread_setname_np(pthread_self(), "lapilli-queue");
 #endif
   const FpEnvironment environment;
+  executor_.pool.start();
   Submission* submission = nullptr;
   while ((submission = next(submission)) != nullptr) {
     wait_for(submission->waits);

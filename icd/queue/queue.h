@@ -42,6 +42,8 @@ struct Queue : Handle<Queue, VkQueue> {
   Queue(const HostMemory& memory, DeviceContext& owner, ThreadPool& workers);
   ~Queue();
 
+  // Makes the queue's thread and those of the pool, if they are not there: work will come soon. Throws std::bad_alloc.
+  void start();
   // Throws std::bad_alloc, then nothing is submitted.
   VkResult submit(std::span<const VkSubmitInfo> batches, Fence* fence);
   VkResult bind_sparse(std::span<const VkBindSparseInfo> batches, Fence* fence);
@@ -53,6 +55,7 @@ struct Queue : Handle<Queue, VkQueue> {
  private:
   template <class Batch, class Fill>
   VkResult push(std::span<const Batch> batches, Fence* fence, const Fill& fill);
+  void make_thread();
   Submission& add_to(SubmissionList& list);
   void work();
   Submission* next(Submission* finished);
@@ -70,7 +73,7 @@ struct Queue : Handle<Queue, VkQueue> {
   std::vector<std::string> labels_;
   bool quit_ = false;
   uint64_t pending_ = 0;  // submissions not yet finished
-  std::thread thread_;    // made by the first submission
+  std::thread thread_;    // made by start() or the first submission
 };
 
 }  // namespace lapilli
