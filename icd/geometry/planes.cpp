@@ -74,6 +74,7 @@ TriangleSetup make_triangle_setup(const BinChunk& chunk, const BinTriangle& tria
   setup.inverse_w[2] = r.inverse_w;
   setup.varyings = nullptr;
   setup.front_facing = triangle.front_facing() ? ~0u : 0u;
+  setup.coordinates = nullptr;
   return setup;
 }
 

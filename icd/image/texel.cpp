@@ -197,6 +197,26 @@ void store_quads(std::byte* plane, const QuadPlaces& places, uint64_t lanes, con
   write_quads<T::kWords>(words, plane, places, lanes);
 }
 
+// A source colour, clamped; a NaN becomes 0. kSame: R G B are those of the first vector.
+template <bool kSame>
+struct ClampedColor {
+  const Color& color;
+  F same[3];
+  HWY_INLINE explicit ClampedColor(const Color& from) : color(from) {
+    if constexpr (kSame) {
+      same[0] = clamp01(from.load_component<0>(0));
+      same[1] = clamp01(from.load_component<1>(0));
+      same[2] = clamp01(from.load_component<2>(0));
+    }
+  }
+  template <int c>
+  HWY_INLINE F component(int vector) const {
+    if constexpr (kSame && c < 3) return same[c];
+    return clamp01(color.load_component<c>(vector));
+  }
+  static HWY_INLINE F clamp01(F x) { return min(max(zero_f(), x), broadcast(1.0f)); }
+};
+
 // A blend equation in vectors.
 struct VectorFactor {
   F slope, offset;
@@ -214,25 +234,24 @@ struct Blender {
         destination_color(e.destination[0], kByteScale),
         destination_alpha(e.destination[1], kByteScale) {}
 
-  template <class T>
-  HWY_INLINE U blend(const Color& color, int vector, U old) const {
+  template <class T, class Source>
+  HWY_INLINE U blend(const Source& color, int vector, U old) const {
     const F d[4] = {scaled_byte_over_255<T::shift_of(0) / 8>(old), scaled_byte_over_255<T::shift_of(1) / 8>(old),
                     scaled_byte_over_255<T::shift_of(2) / 8>(old), scaled_byte_over_255<T::shift_of(3) / 8>(old)};
-    const F alpha = clamp01(color.load_component<3>(vector));
+    const F alpha = color.template component<3>(vector);
     const F by = source_color.of(alpha);
     const F destination_by = destination_color.of(alpha);
-    const F result[4] = {fma(d[0], destination_by, clamp01(color.load_component<0>(vector)) * by),
-                         fma(d[1], destination_by, clamp01(color.load_component<1>(vector)) * by),
-                         fma(d[2], destination_by, clamp01(color.load_component<2>(vector)) * by),
+    const F result[4] = {fma(d[0], destination_by, color.template component<0>(vector) * by),
+                         fma(d[1], destination_by, color.template component<1>(vector) * by),
+                         fma(d[2], destination_by, color.template component<2>(vector) * by),
                          fma(d[3], destination_alpha.of(alpha), alpha * source_alpha.of(alpha))};
     return pack_near_unorm8(result[T::component_of_byte(0)], result[T::component_of_byte(1)],
                             result[T::component_of_byte(2)], result[T::component_of_byte(3)]);
   }
-  static HWY_INLINE F clamp01(F x) { return min(max(zero_f(), x), broadcast(1.0f)); }  // a NaN becomes 0
 };
 
-template <class T>
-void blend_block(std::byte* block, uint64_t lanes, const Color& source, const Blender& blender,
+template <class T, class Source>
+void blend_block(std::byte* block, uint64_t lanes, const Source& source, const Blender& blender,
                  const ComponentBits<T>& bits) {
   const bool everything = bits.all && lanes == ~uint64_t{0};
   for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
@@ -254,12 +273,16 @@ void blend_quads(std::byte* plane, const QuadPlaces& places, uint64_t lanes, con
   const ComponentBits<T>& bits = kComponentBits<T>[equation.components & 15];
   const Blender blender(equation);
   const Color color(source);
-  if (places.whole_block) return blend_block<T>(plane + places.quad[0] * 16, lanes, color, blender, bits);
+  std::byte* const block = plane + places.quad[0] * 16;
+  if (places.whole_block && equation.same_color)
+    return blend_block<T>(block, lanes, ClampedColor<true>(color), blender, bits);
+  const ClampedColor<false> clamped(color);
+  if (places.whole_block) return blend_block<T>(block, lanes, clamped, blender, bits);
   BatchWords<1> old, words;
   read_quads<1>(plane, places, lanes, old);
   for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
     const int first = vector * kVectorLanes;
-    store(blender.blend<T>(color, vector, load<U>(&old.word[0][first])), &words.word[0][first]);
+    store(blender.blend<T>(clamped, vector, load<U>(&old.word[0][first])), &words.word[0][first]);
   }
   if (!bits.all) keep_other_components(old, bits.word, words);
   write_quads<1>(words, plane, places, lanes);

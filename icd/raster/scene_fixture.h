@@ -50,8 +50,7 @@ inline ProgramPtr fragment_program(const FragmentPlan& plan, bool accumulate,
   }
   code.emit_void(Opcode::count_samples);
   if (plan.writes_color) {
-    const Reg lambda = code.emit_n(Opcode::frag_linear, 2);
-    const Reg color = code.emit_n(Opcode::interpolate, 4, lambda, lambda + 1, kNoReg, 0);
+    const Reg color = code.emit_n(Opcode::interpolate_perspective, 4);
     Reg out[4];
     const Reg old = accumulate ? code.emit_n(Opcode::load_color, 4) : kNoReg;
     for (uint32_t i = 0; i < 4; ++i) out[i] = accumulate ? code.emit(Opcode::fadd, old + i, color + i) : color + i;
@@ -125,7 +124,7 @@ struct ScenePass {
       programs.fragment_reads_nothing = !in_order && !programs.writes_color;
       programs.vertex = vertex_program();
       programs.fragment = fragment_program(programs, draw.accumulate, format);
-      programs.varyings.assign(4, Interpolation::linear);
+      programs.varyings.assign(4, Interpolation::perspective);
       programs.output_slots = kSlotVaryings + 4;
       draw.state.programs = &programs;
       draw.state.viewport = {0, 0, static_cast<float>(width), static_cast<float>(height), 0, 1};

@@ -355,7 +355,7 @@ void TileWorker::shade_in_order(uint32_t block, uint64_t pixels) {
   if (triangle_.shaded == nullptr) {
     const BinTriangle& triangle = triangle_.chunk->triangles[triangle_.index];
     keep_pending_setups();
-    triangle_.shaded = &setups_.make(*triangle_.chunk, triangle, triangle_.has_setup ? &setup_ : nullptr);
+    triangle_.shaded = &setups_.make_in_order(*triangle_.chunk, triangle, triangle_.has_setup ? &setup_ : nullptr);
   }
   packer_.add(*triangle_.shaded, block, pixels);
 }

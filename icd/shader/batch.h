@@ -43,6 +43,13 @@ struct DepthPlane {
   float min, max;     // clamp range (the viewport's minDepth, maxDepth, in order)
 };
 
+// Perspective-correct barycentric coordinates 1 and 2 in the blocks of a tile: of the triangles that lie where the one
+// before them did, layer upon layer.
+struct TileCoordinates {
+  uint64_t known = 0;  // blocks, by bit
+  alignas(64) float lambda[64][2][kBatchLanes];
+};
+
 // A triangle ready for shading. Framebuffer positions are 24.8 fixed point; edge i is opposite vertex i:
 // E_i(x, y) = a_i*x + b_i*y + c_i for a pixel centre at (256x+128, 256y+128), positive inside, sum = area2 everywhere.
 // All of them are integers below 2^53 in magnitude, so doubles hold and add them exactly.
@@ -52,9 +59,10 @@ struct TriangleSetup {
   double edge_c[3];      // E_i at the centre of framebuffer pixel (0, 0), without the fill-rule bias
   double inverse_area2;  // 1 / (E_0 + E_1 + E_2)
   DepthPlane depth;
-  float inverse_w[3];     // 1 / w_clip of the vertices
-  const float* varyings;  // [component][3]: a0, a1 - a0, a2 - a0; flat components: provoking vertex's bits, 0, 0
-  uint32_t front_facing;  // 0 or ~0
+  float inverse_w[3];            // 1 / w_clip of the vertices
+  const float* varyings;         // [component][3]: a0, a1 - a0, a2 - a0; flat components: provoking vertex's bits, 0, 0
+  uint32_t front_facing;         // 0 or ~0
+  TileCoordinates* coordinates;  // those of the tile that is drawn, for whole blocks; null: nobody has the same
 };
 
 // Planes of one tile (image/tile.h): quad q of the tile holds texels 4q .. 4q+3; quads are counted block by block.

@@ -185,8 +185,9 @@ struct op_interpolate_perspective {
     uint32_t* const d = reg_out(frame, op->dst);
     if (is_block_of_one(batch)) {
       const TriangleSetup& t = *batch.triangle[0];
-      const bool affine = is_affine(t, frame->lanes);
-      affine ? block<true>(t, batch.x[0], batch.y[0], op, d) : block<false>(t, batch.x[0], batch.y[0], op, d);
+      if (t.coordinates != nullptr) return kept_block(t, batch, op, frame, d);
+      const Varyings varyings = {t.varyings + 3 * op->imm, op->c, d};
+      of_block(t, batch, frame, varyings);
       return op + 1;
     }
     alignas(64) float linear[2 * kLanes];
@@ -198,19 +199,55 @@ struct op_interpolate_perspective {
     }
     return op + 1;
   }
-  template <bool kAffine>
-  static HWY_INLINE void block(const TriangleSetup& t, uint32_t x, uint32_t y, const Op* op, uint32_t* d) {
-    BlockEdge edge1(t.edge_a[1], t.edge_b[1], t.edge_c[1], x, y);
-    BlockEdge edge2(t.edge_a[2], t.edge_b[2], t.edge_c[2], x, y);
+
+ private:
+  // What is done with the coordinates at lanes i …
+  struct Varyings {
+    const float* plane;
+    uint32_t count;
+    uint32_t* d;
+    HWY_INLINE void operator()(int i, const Corrected& at) const { interpolate_one(plane, count, at.l1, at.l2, d + i); }
+  };
+  struct Keep {
+    float (*lambda)[kBatchLanes];
+    HWY_INLINE void operator()(int i, const Corrected& at) const {
+      store(at.l1, lambda[0] + i);
+      store(at.l2, lambda[1] + i);
+    }
+  };
+
+  template <class Then>
+  static HWY_INLINE void of_block(const TriangleSetup& t, const FragmentBatch& batch, Frame* frame, const Then& then) {
+    is_affine(t, frame->lanes) ? block<true>(t, batch, then) : block<false>(t, batch, then);
+  }
+  template <bool kAffine, class Then>
+  static HWY_INLINE void block(const TriangleSetup& t, const FragmentBatch& batch, const Then& then) {
+    BlockEdge edge1(t.edge_a[1], t.edge_b[1], t.edge_c[1], batch.x[0], batch.y[0]);
+    BlockEdge edge2(t.edge_a[2], t.edge_b[2], t.edge_c[2], batch.x[0], batch.y[0]);
     const D inverse_area2 = broadcast(t.inverse_area2);
     const InverseW w = inverse_w_of(t);
-    const float* const plane = t.varyings + 3 * op->imm;
     for (int i = 0; i < kLanes; i += kVectorLanes) {
       const F l1 = to_float(edge1.next() * inverse_area2);
       const F l2 = to_float(edge2.next() * inverse_area2);
-      const Corrected at = kAffine ? correct_affine(l1, l2) : correct_perspective(l1, l2, w);
-      interpolate_one(plane, op->c, at.l1, at.l2, d + i);
+      then(i, kAffine ? correct_affine(l1, l2) : correct_perspective(l1, l2, w));
     }
+  }
+  // Of a triangle that lies where others do.
+  static HWY_INLINE const Op* kept_block(const TriangleSetup& t, const FragmentBatch& batch, const Op* op, Frame* frame,
+                                         uint32_t* d) {
+    const uint32_t number = batch.quad_in_tile[0] / kBatchQuads;
+    float(*const lambda)[kBatchLanes] = t.coordinates->lambda[number];
+    if ((t.coordinates->known >> number & 1) == 0) {
+      of_block(t, batch, frame, Keep{lambda});
+      t.coordinates->known |= uint64_t{1} << number;
+    }
+    const float* plane = t.varyings + 3 * op->imm;
+    for (uint32_t k = 0; k < op->c; ++k, plane += 3, d += kLanes) {
+      const F a0 = broadcast(plane[0]), d1 = broadcast(plane[1]), d2 = broadcast(plane[2]);
+      for (int i = 0; i < kLanes; i += kVectorLanes)
+        store(fma(load<F>(lambda[1] + i), d2, fma(load<F>(lambda[0] + i), d1, a0)), d + i);
+    }
+    return op + 1;
   }
 };
 

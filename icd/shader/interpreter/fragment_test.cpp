@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cmath>
+#include <memory>
 #include <random>
 
 #include "shader/fixed_function.h"
@@ -140,6 +141,31 @@ TEST(Op, InterpolateWithoutPerspective) {
       }
       triangle.inverse_area2 = 1.0 / static_cast<double>(area2);
       expect_fused_interpolation(t);
+    }
+  }
+}
+
+// A second triangle in the same place, with other varyings; then another block, and the first one of another tile.
+TEST(Op, InterpolateInTheSamePlace) {
+  for (SimdTarget target : supported_simd_targets()) {
+    for (const bool affine : {false, true}) {
+      FragmentTest t(target, Quads::block);
+      const auto coordinates = std::make_unique<TileCoordinates>();
+      TriangleSetup& triangle = t.triangles[0];
+      if (affine) std::fill_n(triangle.inverse_w, 3, 1.0f);
+      for (const uint32_t block : {37u, 37u, 5u, 37u, 5u, 63u, 0u}) {
+        t.use_block(1232 + block % 8 * 8, 4048 + block / 8 * 8, block);
+        for (float& v : t.varyings[0]) v = v * 1.5f + 0.25f;
+        std::array<Lanes, 2> results[2];
+        for (const bool kept : {false, true}) {
+          triangle.coordinates = kept ? coordinates.get() : nullptr;
+          results[kept][0] = t.run(Opcode::interpolate_perspective, operands(4, 0, 0, 2, 1));
+          results[kept][1] = t.result_of(5);
+        }
+        EXPECT_EQ(results[0], results[1]) << block;
+        EXPECT_NE(coordinates->known >> block & 1, 0u);
+      }
+      EXPECT_EQ(std::popcount(coordinates->known), 4);
     }
   }
 }
@@ -291,14 +317,16 @@ TEST(Op, blend_color) {
       uint32_t before[4096];
       std::copy(std::begin(t.color), std::end(t.color), before);
       Lanes source[4];
+      const uint32_t same_color = random() % 4 == 0 ? kBlendSameColor : 0;
       for (auto& lanes : source) {
         for (uint32_t& lane : lanes) lane = u(some_color(random));
+        if (same_color != 0 && &lanes != &source[3]) lanes.fill(lanes[0]);
       }
       for (uint32_t c = 0; c < 4; ++c) t.test.write(c, source[c]);
       const uint64_t write = word % 48 == 15 ? ~uint64_t{0} : uint64_t{random()} << 32 | uint64_t{random()};
       const uint32_t mask = word % 64 == 15 ? 15 : static_cast<uint32_t>(random() % 16);
       t.test.frame().write = write;
-      t.test.add(Opcode::blend_color, kStore, operands(0, 0, 0, 0, 0, (word & ~15u) | mask));
+      t.test.add(Opcode::blend_color, kStore, operands(0, 0, 0, 0, 0, (word & ~15u) | mask | same_color));
       t.test.run();
       for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
         uint32_t expected = before[t.texel(lane)];

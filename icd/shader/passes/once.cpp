@@ -5,6 +5,7 @@
 // only ops that look at other lanes could tell, so where there are any, loads move from the first block alone.
 #include <algorithm>
 
+#include "shader/fixed_function.h"
 #include "shader/interpreter/op.h"
 #include "shader/passes/passes.h"
 
@@ -42,6 +43,9 @@ class Splitter {
       code_.once.push_back(instruction);
     }
     if (!code_.once.empty()) keep_marked(code_, marks_);
+    for (Instruction& instruction : code_.instructions) {
+      if (instruction.op == Opcode::blend_color && has_same_color(instruction)) instruction.imm2 |= kBlendSameColor;
+    }
   }
 
  private:
@@ -51,9 +55,7 @@ class Splitter {
       if (code_.registers[instruction.dst + k].kind != RegKind::value) return false;
     }
     for (Reg reg : {instruction.a, instruction.b, instruction.c}) {
-      if (reg == kNoReg) continue;
-      const RegKind kind = code_.registers[reg].kind;
-      if (kind != RegKind::constant && kind != RegKind::uniform) return false;
+      if (reg != kNoReg && !is_same_in_all_lanes(reg)) return false;
     }
     switch (instruction.op) {
       case Opcode::builtin:
@@ -67,6 +69,15 @@ class Splitter {
       default:
         return true;
     }
+  }
+
+  bool is_same_in_all_lanes(Reg reg) const {
+    return code_.registers[reg].kind == RegKind::constant || code_.registers[reg].kind == RegKind::uniform;
+  }
+
+  bool has_same_color(const Instruction& blend) const {
+    const Reg* const color = &code_.operand_list[blend.list_first];
+    return std::all_of(color, color + 3, [this](Reg reg) { return reg == kNoReg || is_same_in_all_lanes(reg); });
   }
 
   // The same was computed already: in another branch, for simplify() looks at one block at a time.

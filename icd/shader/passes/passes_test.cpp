@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/removals.h"
+#include "shader/fixed_function.h"
 #include "shader/program.h"
 
 namespace lapilli {
@@ -109,6 +110,23 @@ TEST(Simplify, ReadsOfVariablesSeeTheirWrites) {
   const Instruction& sub = code.instructions[code.instructions.size() - 3];
   ASSERT_EQ(sub.op, Opcode::fsub) << disassemble(code);
   EXPECT_NE(sub.a, variable);
+}
+
+TEST(Once, SaysWhereABlendedColorIsTheSame) {
+  for (uint32_t varying = 0; varying < 4; ++varying) {
+    Code code;
+    code.stage = VK_SHADER_STAGE_FRAGMENT_BIT;
+    code.color_formats = {VK_FORMAT_R8G8B8A8_UNORM};
+    Reg color[4] = {push(code), code.constant_f(0.5f), push(code, 2), push(code, 3)};
+    color[varying] = code.emit_n(Opcode::interpolate_perspective, 1);
+    Instruction& blend = code.append(Opcode::blend_color);
+    blend.imm2 = 15;
+    code.set_list(blend, color);
+    code = finished(std::move(code), true);
+    const Instruction& found = code.instructions[code.instructions.size() - 2];
+    ASSERT_EQ(found.op, Opcode::blend_color) << disassemble(code);
+    EXPECT_EQ(found.imm2, varying == 3 ? 15 | kBlendSameColor : 15u);
+  }
 }
 
 TEST(Simplify, DropsOverwrittenStores) {
