@@ -1,16 +1,19 @@
 // Errors in units in the last place of float32.
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace lapilli::oracle {
 
 // The distance of neighbouring float32 around |value|: 2^(e - 23), at least the smallest denormal.
 inline double ulp(double value) {
-  const double magnitude = std::abs(value);
-  if (!(magnitude >= double(std::numeric_limits<float>::min()))) return std::ldexp(1.0, -149);
-  return std::ldexp(1.0, std::ilogb(magnitude) - 23);
+  constexpr uint64_t kExponent = uint64_t{0x7FF} << 52;
+  const double power = std::bit_cast<double>(std::bit_cast<uint64_t>(value) & kExponent);  // 2^e
+  return std::max(power, double(std::numeric_limits<float>::min())) * 0x1p-23;
 }
 
 // |got - want| in ULP of want. A result that rounds to infinity, and one that is infinite, agree.
