@@ -18,6 +18,7 @@ struct Arguments {
   uint32_t stride = 1;
   size_t calls = size_t{1} << 24;
   uint32_t peer_stride = 1009;
+  std::vector<std::string> only;
   std::string output = "docs/precision.md";
 };
 
@@ -68,9 +69,10 @@ bool within(const Row& row) {
 }
 
 template <typename Functions, typename Measure>
-std::vector<Row> rows_of(const Functions& functions, const Measure& measure_one) {
+std::vector<Row> rows_of(const Functions& functions, const std::vector<std::string>& only, const Measure& measure_one) {
   std::vector<Row> rows;
   for (const auto& function : functions) {
+    if (!only.empty() && std::find(only.begin(), only.end(), function.name) == only.end()) continue;
     std::fprintf(stderr, "precision: %s", function.name);
     rows.push_back(measure_one(function));
     std::fprintf(stderr, "  %s ULP%s\n", number(rows.back().ours.ulp.value).c_str(),
@@ -96,12 +98,14 @@ int report(const Arguments& arguments) {
   const auto peer_row = [&](const auto& function, auto... how) {
     return peer != nullptr ? measure(*peer, Judge::specified, function, how...) : Measured{};
   };
-  const std::vector<Row> one = rows_of(functions_of_one(), [&](const OneOperand& function) {
+  const std::vector<Row> one = rows_of(functions_of_one(), arguments.only, [&](const OneOperand& function) {
     return Row{measure(subject, judge, function, arguments.stride), peer_row(function, arguments.peer_stride)};
   });
-  const std::vector<Row> several = rows_of(functions_of_several(), [&](const SeveralOperands& function) {
-    return Row{measure(subject, judge, function, arguments.calls, 1u), peer_row(function, arguments.calls / 16, 1u)};
-  });
+  const std::vector<Row> several =
+      rows_of(functions_of_several(), arguments.only, [&](const SeveralOperands& function) {
+        return Row{measure(subject, judge, function, arguments.calls, 1u),
+                   peer_row(function, arguments.calls / 16, 1u)};
+      });
 
   std::ostringstream out;
   out << "# Precision\n\nWritten by `./lapilli precision`; do not edit. Device: " << conformance::subject_name()
@@ -150,6 +154,7 @@ int main(int argc, char** argv) try {
   app.add_option("--stride", arguments.stride, "every how manieth of the 2^32 operands")->check(CLI::PositiveNumber);
   app.add_option("--peer-stride", arguments.peer_stride, "the same for the peer")->check(CLI::PositiveNumber);
   app.add_option("--calls", arguments.calls, "calls of functions of several operands")->check(CLI::PositiveNumber);
+  app.add_option("--only", arguments.only, "only these functions (sin,pow)")->delimiter(',');
   app.add_option("--out", arguments.output, "file to write")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   conformance::choose_drivers();
