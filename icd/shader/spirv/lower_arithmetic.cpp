@@ -2,6 +2,7 @@
 // Where fma is used: OpDot and all matrix products (lower_vector.cpp), mix and Fma (lower_ext.cpp). A plain OpFMul and
 // OpFAdd stay two operations.
 #include <algorithm>
+#include <bit>
 #include <iterator>
 
 #include "shader/spirv/lowering.h"
@@ -157,7 +158,12 @@ bool Lowering::lower_arithmetic(const SpirvInst& inst) {
       break;
     }
     case spv::Op::OpQuantizeToF16:
-      for (const Reg reg : data(inst[3])) regs.push_back(emit(Opcode::half_to_f, emit(Opcode::f_to_half, reg)));
+      for (const Reg reg : data(inst[3])) {
+        // What no normalized half is becomes a zero.
+        const Reg half = emit(Opcode::half_to_f, emit(Opcode::f_to_half, reg));
+        const Reg small = emit(Opcode::flt, emit(Opcode::fabs, half), constant(std::bit_cast<uint32_t>(0x1p-14f)));
+        regs.push_back(emit(Opcode::select, small, emit(Opcode::iand, half, constant(0x80000000)), half));
+      }
       break;
     case spv::Op::OpBitFieldInsert: {
       const std::span<const Reg> base = data(inst[3]);
