@@ -8,6 +8,7 @@
 #include "image/format.h"
 #include "image/sampling.h"
 #include "image/texel.h"
+#include "shader/fixed_function.h"
 #include "shader/passes/passes.h"
 #include "shader/program_data.h"
 
@@ -142,6 +143,10 @@ class Assembler {
     if (instruction.op == Opcode::load_array) op.b = physical(code_.arrays[instruction.imm].first);
     if (instruction.op == Opcode::store_array) op.c = physical(code_.arrays[instruction.imm].first);
     if (op_info(instruction.op).results < 0) op.c = instruction.results;
+    if (instruction.op == Opcode::blend_color) {
+      op.imm2 = static_cast<uint32_t>(program_.blends.size());
+      program_.blends.push_back(blend_equation(instruction.imm2));
+    }
     if (instruction.list_count > 0) {
       op.a = static_cast<uint16_t>(program_.lists.size());
       for (uint32_t i = 0; i < instruction.list_count; ++i) {

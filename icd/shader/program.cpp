@@ -85,6 +85,7 @@ struct Execution::State {
     frame->lists = next.lists.data();
     frame->attributes = next.attributes.data();
     frame->colors = next.colors.data();
+    frame->blends = next.blends.data();
     frame->depth = next.depth;
     frame->sampling = next.sampling;
     std::copy_n(code.workgroup_size, 3, frame->workgroup_size);

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "image/texel.h"
 #include "shader/interpreter/op.h"
 #include "shader/program.h"
 
@@ -23,6 +24,7 @@ struct Program {
   bool once_reads_batch = false;  // blend constants
   std::vector<Attribute> attributes;
   std::vector<const TexelFunctions*> colors;
+  std::vector<BlendEquation> blends;
   const TexelFunctions* depth = nullptr;
   const SamplingFunctions* sampling = nullptr;
   uint32_t register_count = 0;

@@ -9,7 +9,6 @@
 #include <hwy/foreach_target.h>
 
 #include "image/texel.h"
-#include "shader/fixed_function.h"
 #include "shader/interpreter/handlers.h"
 #include "shader/interpreter/machine-inl.h"
 #include "shader/interpreter/perspective-inl.h"
@@ -363,7 +362,7 @@ struct op_blend_color {
     const FragmentBatch& batch = *frame->fragments;
     const ListedColor color(op, frame);
     frame->colors[op->imm]->blend_quads(batch.planes.color[op->imm], places_of(batch), frame->write, color.registers,
-                                        blend_equation(op->imm2));
+                                        frame->blends[op->imm2]);
     return op + 1;
   }
 };

@@ -326,7 +326,9 @@ TEST(Op, blend_color) {
       const uint64_t write = word % 48 == 15 ? ~uint64_t{0} : uint64_t{random()} << 32 | uint64_t{random()};
       const uint32_t mask = word % 64 == 15 ? 15 : static_cast<uint32_t>(random() % 16);
       t.test.frame().write = write;
-      t.test.add(Opcode::blend_color, kStore, operands(0, 0, 0, 0, 0, (word & ~15u) | mask | same_color));
+      const BlendEquation blends[] = {{}, blend_equation((word & ~15u) | mask | same_color)};
+      t.test.frame().blends = blends;
+      t.test.add(Opcode::blend_color, kStore, operands(0, 0, 0, 0, 0, 1));
       t.test.run();
       for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
         uint32_t expected = before[t.texel(lane)];

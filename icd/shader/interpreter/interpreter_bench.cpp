@@ -14,6 +14,7 @@
 #include <hwy/foreach_target.h>
 
 #include "base/lanes-inl.h"
+#include "shader/fixed_function.h"
 #include "shader/interpreter/fragment_fixture.h"
 #include "shader/program.h"
 
@@ -226,6 +227,8 @@ void one_op(benchmark::State& state, SimdTarget target, Opcode op, Op operands, 
   frame.refs = &ref;
   frame.buffers = &range;
   frame.lists = list;
+  const BlendEquation source_alpha_over = blend_equation(15 | 0xDE0);
+  frame.blends = &source_alpha_over;
   frame.masks = masks;
   // Registers 0 to 2: u and v as of a picture drawn somewhat enlarged; 3: addresses.
   const auto write = [&](uint32_t reg, auto value) {
@@ -332,8 +335,7 @@ void add_all() {
              {nullptr, 0, 0, 0, 0, VK_COMPARE_OP_ALWAYS | 8, 1}, quads);
       add_op(target, "load_color" + end, Opcode::load_color, {nullptr, 4, 0, 0, 0, 0, 0}, quads);
       add_op(target, "store_color" + end, Opcode::store_color, {nullptr, 0, 5, 0, 0, 0, 15}, quads);
-      // Source alpha over.
-      add_op(target, "blend_color" + end, Opcode::blend_color, {nullptr, 0, 5, 0, 0, 0, 15 | 0xDE0}, quads);
+      add_op(target, "blend_color" + end, Opcode::blend_color, {nullptr, 0, 5, 0, 0, 0, 0}, quads);
     }
   }
 }

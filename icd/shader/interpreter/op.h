@@ -15,6 +15,7 @@
 
 namespace lapilli {
 
+struct BlendEquation;
 struct ExecutionLimits;
 struct TexelFunctions;
 struct SamplingFunctions;
@@ -90,6 +91,7 @@ struct alignas(64) Frame {
   const uint16_t* lists = nullptr;       // registers of operand lists
   const Attribute* attributes = nullptr;
   const TexelFunctions* const* colors = nullptr;  // one for each colour attachment
+  const BlendEquation* blends = nullptr;          // imm2 of blend_color
   const TexelFunctions* depth = nullptr;
   const SamplingFunctions* sampling = nullptr;
   uint32_t workgroup_size[3] = {1, 1, 1};
