@@ -87,7 +87,7 @@ void blend(benchmark::State& state, bool whole_block) {
   for (auto& reg : batch.rgba) std::copy(batch.u, batch.u + 64, reg);
   uint16_t quads[16];
   for (uint16_t q = 0; q < 16; ++q) quads[q] = static_cast<uint16_t>(whole_block ? q : q * 32);
-  const BlendEquation equation = {{{1, 0}, {0, 1}}, {{-1, 1}, {-1, 1}}, 15, false};
+  const BlendEquation equation = {{{1, 0}, {0, 1}}, {{-1, 1}, {-1, 1}}, 15, false, false};
   for (auto _ : state) {
     functions.blend_quads(plane.data(), {quads, whole_block}, ~uint64_t{0}, batch.in, equation);
   }

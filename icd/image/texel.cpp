@@ -225,7 +225,8 @@ struct VectorFactor {
   HWY_INLINE F of(F alpha) const { return fma_exact(alpha, slope, offset); }
 };
 // The destination keeps its scale until it is multiplied by a factor, which has the inverse: that changes no bit, but
-// for factors below 2^-94, whose products are too small for a code.
+// for factors below 2^-94, whose products are too small for a code. kOver: BlendEquation::over.
+template <bool kOver>
 struct Blender {
   VectorFactor source_color, source_alpha, destination_color, destination_alpha;
   HWY_INLINE explicit Blender(const BlendEquation& e)
@@ -239,25 +240,27 @@ struct Blender {
     const F d[4] = {scaled_byte_over_255<T::shift_of(0) / 8>(old), scaled_byte_over_255<T::shift_of(1) / 8>(old),
                     scaled_byte_over_255<T::shift_of(2) / 8>(old), scaled_byte_over_255<T::shift_of(3) / 8>(old)};
     const F alpha = color.template component<3>(vector);
-    const F by = source_color.of(alpha);
+    const F by = kOver ? alpha : source_color.of(alpha);
     const F destination_by = destination_color.of(alpha);
+    const F destination_alpha_by = kOver ? destination_by : destination_alpha.of(alpha);
+    const F source_by_alpha = kOver ? alpha : alpha * source_alpha.of(alpha);
     const F result[4] = {fma(d[0], destination_by, color.template component<0>(vector) * by),
                          fma(d[1], destination_by, color.template component<1>(vector) * by),
                          fma(d[2], destination_by, color.template component<2>(vector) * by),
-                         fma(d[3], destination_alpha.of(alpha), alpha * source_alpha.of(alpha))};
+                         fma(d[3], destination_alpha_by, source_by_alpha)};
     return pack_near_unorm8(result[T::component_of_byte(0)], result[T::component_of_byte(1)],
                             result[T::component_of_byte(2)], result[T::component_of_byte(3)]);
   }
 };
 
-template <class T, class Source>
-void blend_block(std::byte* block, uint64_t lanes, const Source& source, const Blender& blender,
+template <class T, class Source, bool kOver>
+void blend_block(std::byte* block, uint64_t lanes, const Source& source, const Blender<kOver>& blender,
                  const ComponentBits<T>& bits) {
   const bool everything = bits.all && lanes == ~uint64_t{0};
   for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
     std::byte* const texels = vector_of_block<1>(block, vector);
     const U old = load_unaligned<U>(texels);
-    U texel = blender.blend<T>(source, vector, old);
+    U texel = blender.template blend<T>(source, vector, old);
     if (!everything) {
       const U taken = mask_to_u(mask_of(lanes, vector)) & broadcast(bits.word[0]);
       texel = (texel & taken) | and_not(taken, old);
@@ -266,18 +269,27 @@ void blend_block(std::byte* block, uint64_t lanes, const Source& source, const B
   }
 }
 
+template <class T, bool kOver>
+void blend_whole(std::byte* block, uint64_t lanes, const Color& color, const BlendEquation& equation,
+                 const ComponentBits<T>& bits) {
+  const Blender<kOver> blender(equation);
+  equation.same_color ? blend_block<T>(block, lanes, ClampedColor<true>(color), blender, bits)
+                      : blend_block<T>(block, lanes, ClampedColor<false>(color), blender, bits);
+}
+
 template <size_t kFormat>
 void blend_quads(std::byte* plane, const QuadPlaces& places, uint64_t lanes, const float* const source[4],
                  const BlendEquation& equation) {
   using T = Texel<kFormat>;
   const ComponentBits<T>& bits = kComponentBits<T>[equation.components & 15];
-  const Blender blender(equation);
   const Color color(source);
-  std::byte* const block = plane + places.quad[0] * 16;
-  if (places.whole_block && equation.same_color)
-    return blend_block<T>(block, lanes, ClampedColor<true>(color), blender, bits);
+  if (places.whole_block) {
+    std::byte* const block = plane + places.quad[0] * 16;
+    return equation.over ? blend_whole<T, true>(block, lanes, color, equation, bits)
+                         : blend_whole<T, false>(block, lanes, color, equation, bits);
+  }
+  const Blender<false> blender(equation);
   const ClampedColor<false> clamped(color);
-  if (places.whole_block) return blend_block<T>(block, lanes, clamped, blender, bits);
   BatchWords<1> old, words;
   read_quads<1>(plane, places, lanes, old);
   for (int vector = 0; vector < kVectorsPerBatch; ++vector) {

@@ -27,6 +27,7 @@ struct BlendEquation {
   Factor source[2], destination[2];
   uint32_t components;  // those that are written
   bool same_color;      // R G B of the source are known to be the same in all lanes
+  bool over;            // the factors are source alpha, one minus it; one, one minus it; and all is added
 };
 
 // Registers are 64 floats (or integers' bits), 64-byte aligned; a null register of a load is not written. Lane i is bit

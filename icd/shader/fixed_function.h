@@ -35,7 +35,8 @@ inline BlendEquation blend_equation(uint32_t word) {
   return {{kFactors[from_destination[0]][word >> 4 & 3], kFactors[from_destination[1]][word >> 8 & 3]},
           {kFactors[from_source[0]][word >> 6 & 3], kFactors[from_source[1]][word >> 10 & 3]},
           word & 15,
-          (word & kBlendSameColor) != 0};
+          (word & kBlendSameColor) != 0,
+          (word & 0xFFF0) == 0xDE0};
 }
 
 constexpr bool writes_color(Opcode op) { return op == Opcode::store_color || op == Opcode::blend_color; }
