@@ -87,6 +87,38 @@ Id Module::ext(uint32_t instruction, Id result_type, const Words& operands) {
   return emit(spv::Op::OpExtInst, result_type, words);
 }
 
+Words Module::begin_function(Id result_type, const Words& parameter_types) {
+  Words key = {uint32_t(spv::Op::OpTypeFunction), result_type};
+  key.insert(key.end(), parameter_types.begin(), parameter_types.end());
+  Id& type = known_[key];
+  if (type == 0) {
+    type = new_id();
+    Words words = {type};
+    words.insert(words.end(), key.begin() + 1, key.end());
+    put(globals_, spv::Op::OpTypeFunction, words);
+  }
+  locals_.swap(saved_locals_);
+  body_.swap(saved_body_);
+  Words ids = {new_id()};
+  put(functions_, spv::Op::OpFunction, {result_type, ids[0], 0, type});
+  for (const Id parameter : parameter_types) {
+    ids.push_back(new_id());
+    put(functions_, spv::Op::OpFunctionParameter, {parameter, ids.back()});
+  }
+  put(functions_, spv::Op::OpLabel, {new_id()});
+  return ids;
+}
+
+void Module::end_function() {
+  functions_.insert(functions_.end(), locals_.begin(), locals_.end());
+  functions_.insert(functions_.end(), body_.begin(), body_.end());
+  put(functions_, spv::Op::OpFunctionEnd, {});
+  locals_.swap(saved_locals_);
+  body_.swap(saved_body_);
+  saved_locals_.clear();
+  saved_body_.clear();
+}
+
 void Module::begin_main() { main_ = new_id(); }
 
 Words Module::finish(spv::ExecutionModel model, uint32_t local_size) {
@@ -112,6 +144,7 @@ Words Module::finish(spv::ExecutionModel model, uint32_t local_size) {
     put(out, spv::Op::OpExecutionMode, {main_, uint32_t(spv::ExecutionMode::OriginUpperLeft)});
   append(annotations_);
   append(globals_);
+  append(functions_);
   put(out, spv::Op::OpFunction, {result, main_, 0, function_type});
   put(out, spv::Op::OpLabel, {first_block});
   append(locals_);

@@ -59,6 +59,7 @@ class Module {
     return emit(op, result_type, std::span(operands.begin(), operands.size()));
   }
   void emit_void(spv::Op op, std::initializer_list<uint32_t> operands = {}) { put(body_, op, operands); }
+  void emit_void(spv::Op op, const Words& operands) { put(body_, op, operands); }
   Id label();  // a new block begins here
   void label(Id id) { emit_void(spv::Op::OpLabel, {id}); }
   Id composite(Id of_type, const Words& parts) { return emit(spv::Op::OpCompositeConstruct, of_type, parts); }
@@ -66,6 +67,11 @@ class Module {
   Id ext(uint32_t instruction, Id result_type, const Words& operands);
   Id load(Id of_type, Id pointer) { return emit(spv::Op::OpLoad, of_type, {pointer}); }
   void store(Id pointer, Id value) { emit_void(spv::Op::OpStore, {pointer, value}); }
+
+  // A function before main: its id, then those of the parameters. What is emitted until end_function() goes there;
+  // every path has to return. main may be half written.
+  Words begin_function(Id result_type, const Words& parameter_types);
+  void end_function();
 
   // void main(): everything emitted since the last function. begin_main() opens it, finish() closes it.
   void begin_main();
@@ -80,7 +86,8 @@ class Module {
   Id next_id_ = 1;
   Id main_ = 0, glsl_ = 0;
   std::map<Words, Id> known_;
-  Words capabilities_, annotations_, globals_, locals_, body_, interface_;
+  Words saved_locals_, saved_body_;  // of main, while another function is written
+  Words capabilities_, annotations_, globals_, functions_, locals_, body_, interface_;
 };
 
 }  // namespace lapilli::conformance::spirv

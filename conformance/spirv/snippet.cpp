@@ -98,6 +98,20 @@ void put_position(Module& m, Id index, uint32_t rows) {
           m.composite(position_type, {x, y, constant(0.5f), constant(1)}));
 }
 
+void load_push_constants(Module& m, uint32_t count, Words& to) {
+  const Id uint = m.uint_type(), array = m.type(spv::Op::OpTypeArray, {uint, m.constant_uint(count)});
+  m.decorate({array, uint32_t(spv::Decoration::ArrayStride), 4});
+  const Id block = m.type(spv::Op::OpTypeStruct, {array});
+  m.decorate({block, uint32_t(spv::Decoration::Block)});
+  m.decorate_member({block, 0, uint32_t(spv::Decoration::Offset), 0});
+  const Id variable = m.variable(spv::StorageClass::PushConstant, block);
+  const Id pointer = m.pointer_type(spv::StorageClass::PushConstant, uint);
+  for (uint32_t i = 0; i < count; ++i) {
+    const Id element = m.emit(spv::Op::OpAccessChain, pointer, {variable, m.constant_uint(0), m.constant_uint(i)});
+    to.push_back(m.load(uint, element));
+  }
+}
+
 Words shader_for(const Snippet& snippet, Stage stage, uint32_t rows) {
   Module m;
   m.begin_main();
@@ -105,6 +119,7 @@ Words shader_for(const Snippet& snippet, Stage stage, uint32_t rows) {
   const Id first = times(m, index, snippet.inputs);
   Words inputs;
   for (uint32_t i = 0; i < snippet.inputs; ++i) inputs.push_back(m.load(uint, word_at(m, in, add(m, first, i))));
+  if (!snippet.push.empty()) load_push_constants(m, uint32_t(snippet.push.size()), inputs);
   Words outputs = snippet.emit(m, inputs);
   if (stage == Stage::compute) {
     const Id out = words_buffer(m, 1), base = times(m, index, snippet.outputs);
@@ -160,7 +175,7 @@ Words run_graphics(const samples::Context& context, const Snippet& snippet, Stag
   const DescriptorSlot slot = {0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, {buffer.get(), 0, VK_WHOLE_SIZE}};
   const Descriptors descriptors(context, {&slot, 1});
   const VkDescriptorSetLayout set_layout = descriptors.layout();
-  const samples::PipelineLayout layout = create_layout(context, {&set_layout, 1});
+  const samples::PipelineLayout layout = create_layout(context, {&set_layout, 1}, uint32_t(4 * snippet.push.size()));
   const bool in_vertex = stage == Stage::vertex;
   const Words shader = shader_for(snippet, stage, rows),
               other = in_vertex ? pass_through_fragment() : full_screen_vertex();
@@ -177,6 +192,11 @@ Words run_graphics(const samples::Context& context, const Snippet& snippet, Stag
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());
   const VkDescriptorSet set = descriptors.get();
   vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout.get(), 0, 1, &set, 0, nullptr);
+  if (!snippet.push.empty()) {
+    vkCmdPushConstants(commands, layout.get(),
+                       VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                       uint32_t(4 * snippet.push.size()), snippet.push.data());
+  }
   vkCmdDraw(commands, in_vertex ? 3 * elements : 3, 1, 0, 0);
   Canvas::end(commands);
   context.submit_and_wait(commands);
@@ -207,6 +227,7 @@ Words run(const samples::Context& context, const Snippet& snippet, Stage stage, 
   job.shader = shader;
   job.buffers = {to_bytes(operands), Bytes(elements * snippet.outputs * sizeof(uint32_t))};
   job.groups[0] = uint32_t((elements + 63) / 64);
+  job.push_constants = to_bytes(snippet.push);
   return from_bytes<uint32_t>(run_compute(context, job)[1]);
 }
 

@@ -12,8 +12,9 @@ namespace lapilli::conformance::spirv {
 // From the words of one element to the words of its result, all of type uint.
 struct Snippet {
   uint32_t inputs = 1;
-  uint32_t outputs = 1;  // at most 2 but in compute shaders
-  std::function<Words(Module& module, const Words& inputs)> emit;
+  uint32_t outputs = 1;                                            // at most 2 but in compute shaders
+  std::function<Words(Module& module, const Words& inputs)> emit;  // inputs, then the push constants
+  Words push = {};                                                 // values of push constants
 };
 
 enum class Stage { compute, fragment, vertex };
