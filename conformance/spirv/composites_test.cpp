@@ -513,6 +513,25 @@ TEST(Composites, Packing) {
       random_floats(3, 11));
 }
 
+// Of both kinds, without a value given from outside: their defaults.
+TEST(Composites, BooleanConstants) {
+  check(
+      "OpConstantFalse, OpSpecConstantTrue, OpSpecConstantFalse", 1, 2,
+      [](Module& m, const Words& w) -> Words {
+        const Id yes = m.type_with_result(spv::Op::OpSpecConstantTrue, m.bool_type(), {});
+        const Id no = m.type_with_result(spv::Op::OpSpecConstantFalse, m.bool_type(), {});
+        m.decorate({yes, uint32_t(spv::Decoration::SpecId), 1});
+        m.decorate({no, uint32_t(spv::Decoration::SpecId), 2});
+        const Id never = m.emit(spv::Op::OpLogicalOr, m.bool_type(), {m.constant_bool(false), no});
+        const auto word = [&](Id b) { return m.emit(spv::Op::OpSelect, m.uint_type(), {b, w[0], m.constant_uint(5)}); };
+        return {word(yes), word(never)};
+      },
+      [](const uint32_t* x) -> std::vector<Want> {
+        return {exactly(x[0]), exactly(5)};
+      },
+      random_words(1, 13));
+}
+
 TEST(Composites, ConstantsNullAndUndefined) {
   check(
       "OpConstantComposite, OpConstantNull, OpUndef", 1, 4,
