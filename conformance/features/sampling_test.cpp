@@ -121,7 +121,7 @@ void check(VkFormat format, VkFilter filter) {
         for (size_t i = 0; i < at.size(); ++i) {
           const auto oracle_sample = filter == VK_FILTER_NEAREST ? oracle::sample_nearest : oracle::sample_linear;
           const oracle::Sample want =
-              oracle_sample(t.texture, u.address, v.address, double(at[i][0]), double(at[i][1]));
+              oracle_sample(t.texture, u.address, v.address, double(at[i][0]), double(at[i][1]), {});
           if (want.tie) continue;
           for (size_t c = 0; c < 4; ++c) {
             ASSERT_NEAR(double(got[i][c]), want.value[c], filter == VK_FILTER_NEAREST ? 1e-7 : kLinearTolerance)
@@ -250,7 +250,7 @@ TEST(Sampling, TexturedQuadInAFragmentShader) {
       for (int x = 0; x < 32; ++x) {
         const double u = (x + 0.5) / 32 * double(zoom), v = (y + 0.5) / 32 * double(zoom);
         const auto oracle_sample = zoom == 1.0f ? oracle::sample_nearest : oracle::sample_linear;
-        const oracle::Sample want = oracle_sample(t.texture, Address::kRepeat, Address::kRepeat, u, v);
+        const oracle::Sample want = oracle_sample(t.texture, Address::kRepeat, Address::kRepeat, u, v, {});
         for (size_t c = 0; c < 4; ++c) {
           ASSERT_NEAR(double(image[size_t(y * 32 + x)][c]), want.value[c] * 255, 0.51) << x << "," << y;
         }

@@ -7,7 +7,8 @@ Descriptors::Descriptors(const samples::Context& context, std::span<const Descri
   std::vector<VkDescriptorSetLayoutBinding> bindings;
   std::vector<VkDescriptorPoolSize> sizes;
   for (const DescriptorSlot& s : slots) {
-    bindings.push_back({s.binding, s.type, 1, VK_SHADER_STAGE_ALL, nullptr});
+    if (s.element == 0) bindings.push_back({s.binding, s.type, 0, VK_SHADER_STAGE_ALL, nullptr});
+    ++bindings.back().descriptorCount;
     sizes.push_back({s.type, 1});
   }
   VkDescriptorSetLayoutCreateInfo layout = {};
@@ -42,10 +43,12 @@ void Descriptors::write(const DescriptorSlot& slot) const {
   write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
   write.dstSet = set_;
   write.dstBinding = slot.binding;
+  write.dstArrayElement = slot.element;
   write.descriptorCount = 1;
   write.descriptorType = slot.type;
   write.pBufferInfo = &slot.buffer;
   write.pImageInfo = &slot.image;
+  write.pTexelBufferView = &slot.view;
   vkUpdateDescriptorSets(context_.device(), 1, &write, 0, nullptr);
 }
 

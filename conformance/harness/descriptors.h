@@ -9,10 +9,12 @@
 namespace lapilli::conformance {
 
 struct DescriptorSlot {
-  uint32_t binding;
+  uint32_t binding;  // the same several times: an array
   VkDescriptorType type;
   VkDescriptorBufferInfo buffer = {};
   VkDescriptorImageInfo image = {};
+  VkBufferView view = VK_NULL_HANDLE;
+  uint32_t element = 0;  // of the array; in order
 };
 
 // One set; all stages see it.

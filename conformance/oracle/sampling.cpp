@@ -29,24 +29,62 @@ std::array<double, 4> fetch(const Texture& t, Address mode_u, Address mode_v, in
   return x < 0 || y < 0 ? t.border : t.texels[size_t(y * t.width + x)];
 }
 
+bool close_to_integer(double a) { return std::abs(a - std::nearbyint(a)) < 1e-6 * (1 + std::abs(a)); }
+
 }  // namespace
 
-Sample sample_nearest(const Texture& t, Address mode_u, Address mode_v, double u, double v) {
+Sample sample_nearest(const Texture& t, Address mode_u, Address mode_v, double u, double v, Offset offset) {
   const double x = u * t.width, y = v * t.height;
-  const auto close = [](double a) { return std::abs(a - std::nearbyint(a)) < 1e-6 * (1 + std::abs(a)); };
-  return {fetch(t, mode_u, mode_v, int64_t(std::floor(x)), int64_t(std::floor(y))), close(x) || close(y)};
+  return {fetch(t, mode_u, mode_v, int64_t(std::floor(x)) + offset.x, int64_t(std::floor(y)) + offset.y),
+          close_to_integer(x) || close_to_integer(y)};
 }
 
-Sample sample_linear(const Texture& t, Address mode_u, Address mode_v, double u, double v) {
+Gathered gather(const Texture& t, Address mode_u, Address mode_v, double u, double v, Offset offset) {
   const double x = u * t.width - 0.5, y = v * t.height - 0.5;
-  const double fx = std::floor(x), fy = std::floor(y), a = x - fx, b = y - fy;
-  const int64_t i = int64_t(fx), j = int64_t(fy);
+  const int64_t i = int64_t(std::floor(x)) + offset.x, j = int64_t(std::floor(y)) + offset.y;
+  return {{fetch(t, mode_u, mode_v, i, j + 1), fetch(t, mode_u, mode_v, i + 1, j + 1),
+           fetch(t, mode_u, mode_v, i + 1, j), fetch(t, mode_u, mode_v, i, j)},
+          close_to_integer(x) || close_to_integer(y)};
+}
+
+Sample sample_linear(const Texture& t, Address mode_u, Address mode_v, double u, double v, Offset offset) {
+  const double x = u * t.width - 0.5, y = v * t.height - 0.5;
+  const double a = x - std::floor(x), b = y - std::floor(y);
+  const auto [lower_left, lower_right, upper_right, upper_left] = gather(t, mode_u, mode_v, u, v, offset).texels;
   Sample out{};
-  const auto t00 = fetch(t, mode_u, mode_v, i, j), t10 = fetch(t, mode_u, mode_v, i + 1, j);
-  const auto t01 = fetch(t, mode_u, mode_v, i, j + 1), t11 = fetch(t, mode_u, mode_v, i + 1, j + 1);
   for (size_t c = 0; c < 4; ++c) {
-    out.value[c] = (1 - b) * ((1 - a) * t00[c] + a * t10[c]) + b * ((1 - a) * t01[c] + a * t11[c]);
+    out.value[c] =
+        (1 - b) * ((1 - a) * upper_left[c] + a * upper_right[c]) + b * ((1 - a) * lower_left[c] + a * lower_right[c]);
   }
+  return out;
+}
+
+Sample sample_trilinear(const std::vector<Texture>& levels, Address mode_u, Address mode_v, double u, double v,
+                        double lod, Offset offset) {
+  const double d = std::clamp(lod, 0.0, double(levels.size()) - 1);
+  const size_t fine = size_t(d), coarse = std::min(fine + 1, levels.size() - 1);
+  Sample out = sample_linear(levels[fine], mode_u, mode_v, u, v, offset);
+  const Sample next = sample_linear(levels[coarse], mode_u, mode_v, u, v, offset);
+  for (size_t c = 0; c < 4; ++c) out.value[c] += (d - double(fine)) * (next.value[c] - out.value[c]);
+  return out;
+}
+
+Texture compare(const Texture& depth, Compare op, double reference) {
+  Texture out = depth;
+  const auto outcome = [&](double d) {
+    switch (op) {
+      case Compare::kLess:
+        return reference < d;
+      case Compare::kLessOrEqual:
+        return reference <= d;
+      case Compare::kGreater:
+        return reference > d;
+      default:
+        return reference >= d;
+    }
+  };
+  for (auto& texel : out.texels) texel = {outcome(texel[0]) ? 1.0 : 0.0, 0, 0, 1};
+  out.border = {outcome(out.border[0]) ? 1.0 : 0.0, 0, 0, 1};
   return out;
 }
 

@@ -88,6 +88,18 @@ void move_box(const std::byte* source, const Box& from, std::byte* target, const
   }
 }
 
+// IEEE binary16, rounded to nearest even.
+uint32_t half_bits(float value) {
+  if (std::isnan(value)) return 0x7E00;
+  const uint32_t sign = std::signbit(value) ? 0x8000 : 0;
+  const double magnitude = std::fabs(double{value});
+  if (magnitude >= 65520.0) return sign | 0x7C00;
+  const int exponent = magnitude < 0x1p-14 ? -14 : std::ilogb(magnitude);
+  const auto steps = static_cast<uint32_t>(std::nearbyint(std::ldexp(magnitude, 10 - exponent)));
+  // Steps of a normal number begin at 1024; one that is rounded up to 2048 carries into the exponent.
+  return sign | (magnitude < 0x1p-14 ? steps : steps + (static_cast<uint32_t>(exponent + 14) << 10));
+}
+
 // One component as the bits of the texel, in the low `bits` bits.
 uint32_t pack_component(const ComponentLayout& component, uint32_t bits_of_value) {
   const float value = std::bit_cast<float>(bits_of_value);
@@ -98,7 +110,13 @@ uint32_t pack_component(const ComponentLayout& component, uint32_t bits_of_value
       // Rounded as the lanes do: the product in float, then to the nearest integer, half to even.
       return static_cast<uint32_t>(std::nearbyint(static_cast<float>(clamped) * static_cast<float>(largest)));
     }
+    case ComponentKind::snorm: {
+      const float largest = static_cast<float>(std::exp2(component.bits - 1) - 1.0);
+      const float clamped = std::isnan(value) ? 0.0f : std::min(std::max(value, -1.0f), 1.0f);
+      return static_cast<uint32_t>(static_cast<int32_t>(std::nearbyint(clamped * largest)));
+    }
     case ComponentKind::sfloat:
+      if (component.bits == 16) return half_bits(value);
       return std::isnan(value) ? 0x7FC00000u : bits_of_value;
     case ComponentKind::uint:
     case ComponentKind::sint:

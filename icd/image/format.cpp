@@ -34,12 +34,14 @@ VkFormatProperties format_properties(VkFormat format) {
   const FormatInfo* info = find_format(format);
   if (info == nullptr) return properties;
   const auto add = [info](FormatFeature feature, VkFormatFeatureFlags bit) { return info->has(feature) ? bit : 0u; };
-  // Blits sample their source and pack their target; those of depth are left out.
+  // Blits sample their source and pack their target; those of depth and of integers are left out.
   const bool color = info->aspects == VK_IMAGE_ASPECT_COLOR_BIT;
-  const VkFormatFeatureFlags blit =
-      color ? add(kSampled, VK_FORMAT_FEATURE_BLIT_SRC_BIT) | add(kColorTarget, VK_FORMAT_FEATURE_BLIT_DST_BIT) : 0u;
+  const VkFormatFeatureFlags blit = color ? (info->is_integer() ? 0 : add(kSampled, VK_FORMAT_FEATURE_BLIT_SRC_BIT)) |
+                                                add(kColorTarget, VK_FORMAT_FEATURE_BLIT_DST_BIT)
+                                          : 0u;
   const VkFormatFeatureFlags image = blit | add(kSampled, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT) |
                                      add(kFilterable, VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT) |
+                                     add(kStorage, VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT) |
                                      add(kColorTarget, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT) |
                                      add(kBlendable, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) |
                                      add(kDepthTarget, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT);

@@ -10,7 +10,7 @@
 
 namespace lapilli {
 
-enum class ComponentKind : uint8_t { none, unorm, sfloat, uint, sint };
+enum class ComponentKind : uint8_t { none, unorm, snorm, sfloat, uint, sint };
 
 struct ComponentLayout {
   ComponentKind kind = ComponentKind::none;
@@ -28,6 +28,7 @@ enum FormatFeature : uint32_t {
   kBlendable = 16,
   kDepthTarget = 32,  // depth attachment
   kVertex = 64,       // vertex buffer
+  kStorage = 128,     // storage image
 };
 
 struct FormatInfo {
@@ -40,6 +41,7 @@ struct FormatInfo {
   uint32_t features = 0;  // FormatFeature
 
   constexpr bool has(FormatFeature feature) const { return (features & feature) != 0; }
+  constexpr bool is_target() const { return has(kColorTarget) || has(kDepthTarget); }
   // Components are integers in a shader: a missing alpha is the integer 1.
   constexpr bool is_integer() const {
     return components[0].kind == ComponentKind::uint || components[0].kind == ComponentKind::sint;

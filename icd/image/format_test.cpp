@@ -21,6 +21,7 @@ struct NameReader {
     const size_t underscore = name.find('_');
     const std::string_view suffix = name.substr(underscore + 1);
     const ComponentKind kind = suffix == "UNORM"    ? ComponentKind::unorm
+                               : suffix == "SNORM"  ? ComponentKind::snorm
                                : suffix == "SFLOAT" ? ComponentKind::sfloat
                                : suffix == "UINT"   ? ComponentKind::uint
                                : suffix == "SINT"   ? ComponentKind::sint
@@ -91,8 +92,8 @@ TEST(Format, FirstFormatsAreOffered) {
       VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT |
       VK_FORMAT_FEATURE_BLIT_SRC_BIT | VK_FORMAT_FEATURE_BLIT_DST_BIT;  // conformance/features/blit_test.cpp
   for (VkFormat format : {VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R32G32B32A32_SFLOAT}) {
-    EXPECT_EQ(format_properties(format).optimalTilingFeatures, target);
-    EXPECT_EQ(format_properties(format).linearTilingFeatures, target);
+    EXPECT_EQ(format_properties(format).optimalTilingFeatures & target, target);
+    EXPECT_EQ(format_properties(format).linearTilingFeatures & target, target);
   }
   EXPECT_NE(
       format_properties(VK_FORMAT_D32_SFLOAT).optimalTilingFeatures & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT,
@@ -102,6 +103,19 @@ TEST(Format, FirstFormatsAreOffered) {
        {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_R32G32B32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT}) {
     EXPECT_EQ(format_properties(format).bufferFeatures, VkFormatFeatureFlags{VK_FORMAT_FEATURE_VERTEX_BUFFER_BIT});
   }
+}
+
+// "Required Format Support" of Vulkan 1.0 for storage images.
+TEST(Format, StorageFormatsOfTheSpecificationAreOffered) {
+  constexpr VkFormat kRequired[] = {
+      VK_FORMAT_R8G8B8A8_UNORM,      VK_FORMAT_R8G8B8A8_SNORM,    VK_FORMAT_R8G8B8A8_UINT,
+      VK_FORMAT_R8G8B8A8_SINT,       VK_FORMAT_R16G16B16A16_UINT, VK_FORMAT_R16G16B16A16_SINT,
+      VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R32_UINT,          VK_FORMAT_R32_SINT,
+      VK_FORMAT_R32_SFLOAT,          VK_FORMAT_R32G32_UINT,       VK_FORMAT_R32G32_SINT,
+      VK_FORMAT_R32G32_SFLOAT,       VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R32G32B32A32_SINT,
+      VK_FORMAT_R32G32B32A32_SFLOAT};
+  constexpr VkFormatFeatureFlags storage = VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;
+  for (VkFormat format : kRequired) EXPECT_EQ(format_properties(format).optimalTilingFeatures & storage, storage);
 }
 
 }  // namespace

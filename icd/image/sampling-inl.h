@@ -21,6 +21,11 @@ struct LevelJob {
   const SamplerState* sampler;
   const float* u;
   const float* v;
+  // For sampling_general-inl.h alone.
+  const FormatInfo* format = nullptr;
+  const float* reference = nullptr;
+  const int32_t* offset_x = nullptr;
+  const int32_t* offset_y = nullptr;
 };
 
 // Writes the lanes of `m`; the others keep their value.
@@ -140,26 +145,6 @@ struct LevelReader {
       store_where(live, linear_component<Wrap, 1>(footprint, *job.sampler), rgba[1] + first);
       store_where(live, linear_component<Wrap, 2>(footprint, *job.sampler), rgba[2] + first);
       store_where(live, linear_component<Wrap, 3>(footprint, *job.sampler), rgba[3] + first);
-    }
-  }
-
-  // Coordinates are texels; outside of the level 0 0 0 0.
-  static void fetch(const TextureLevel& level, const FetchOperands& operands, uint64_t lanes, float* const rgba[4]) {
-    for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
-      const M live = mask_of(lanes, vector);
-      if (!any(live)) continue;
-      const int first = vector * kVectorLanes;
-      const I x = load<I>(operands.x + first);
-      const I y = load<I>(operands.y + first);
-      const M inside = live & index_inside(x, broadcast(level.width)) & index_inside(y, broadcast(level.height));
-      U texel[T::kWords];
-      T::gather(level.data, offset_of(y * broadcast(level.row_pitch), x), inside, texel);
-      F value[4];
-      T::decode(texel, value);
-      store_where(live, select(inside, value[0], zero_f()), rgba[0] + first);
-      store_where(live, select(inside, value[1], zero_f()), rgba[1] + first);
-      store_where(live, select(inside, value[2], zero_f()), rgba[2] + first);
-      store_where(live, select(inside, value[3], zero_f()), rgba[3] + first);
     }
   }
 };

@@ -13,6 +13,7 @@
 
 #include "base/lane_math-inl.h"
 #include "image/sampling-inl.h"
+#include "image/sampling_general-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lapilli {
@@ -22,24 +23,21 @@ namespace {
 constexpr int kQuads = kLanes / 4;
 
 using LevelFunction = void (*)(const LevelJob&, uint64_t lanes, float* const rgba[4]);
-using FetchFunction = void (*)(const TextureLevel&, const FetchOperands&, uint64_t lanes, float* const rgba[4]);
 
-// Null where the format cannot be sampled.
+// Null where the general way is taken: formats that one does not draw to are not hot.
 struct FormatReaders {
   LevelFunction nearest = nullptr;
   LevelFunction linear = nullptr;          // any wrapping
   LevelFunction linear_repeat = nullptr;   // both axes repeat
   LevelFunction linear_to_edge = nullptr;  // both axes clamp to the edge
-  FetchFunction fetch = nullptr;
 };
 
 template <size_t kFormat>
 constexpr FormatReaders readers_of() {
   FormatReaders readers;
-  if constexpr (kFormats[kFormat].has(kSampled)) {
+  if constexpr (kFormats[kFormat].has(kSampled) && kFormats[kFormat].is_target()) {
     using Reader = LevelReader<kFormat>;
     readers.nearest = Reader::nearest;
-    readers.fetch = Reader::fetch;
     if constexpr (kFormats[kFormat].has(kFilterable)) {
       readers.linear = Reader::template linear<WrapAny>;
       readers.linear_repeat = Reader::template linear<WrapRepeat>;
@@ -56,9 +54,11 @@ constexpr std::array<FormatReaders, sizeof...(kIndices)> make_readers(std::index
 constexpr std::array<FormatReaders, kFormatCount> kReaders = make_readers(std::make_index_sequence<kFormatCount>());
 
 // A filter that the format does not offer falls back to the nearest texel.
-LevelFunction level_function(const TextureView& view, const SamplerState& sampler, VkFilter filter) {
+LevelFunction level_function(const TextureView& view, const SamplerState& sampler, VkFilter filter, bool plain) {
   const FormatReaders& readers = kReaders[view.format->index];
-  if (filter == VK_FILTER_NEAREST || readers.linear == nullptr) return readers.nearest;
+  const bool nearest = filter == VK_FILTER_NEAREST || !view.format->has(kFilterable);
+  if (!plain || readers.nearest == nullptr) return nearest ? general_nearest : general_linear;
+  if (nearest) return readers.nearest;
   if (sampler.address_u == sampler.address_v && !sampler.unnormalized) {
     if (sampler.address_u == VK_SAMPLER_ADDRESS_MODE_REPEAT) return readers.linear_repeat;
     if (sampler.address_u == VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE) return readers.linear_to_edge;
@@ -66,10 +66,14 @@ LevelFunction level_function(const TextureView& view, const SamplerState& sample
   return readers.linear;
 }
 
-struct Registers {
-  alignas(64) float lane[4][kLanes];
-  float* const rgba[4] = {lane[0], lane[1], lane[2], lane[3]};
-};
+bool can_sample(const TextureView* view, const SamplerState* sampler) {
+  return view != nullptr && sampler != nullptr && view->level_count != 0 && view->format->has(kSampled);
+}
+
+LevelJob make_job(const TextureView& view, const SamplerState& sampler, const SampleOperands& operands) {
+  return {&view.levels[0], &sampler,           operands.u,        operands.v,
+          view.format,     operands.reference, operands.offset_x, operands.offset_y};
+}
 
 uint64_t lanes_equal(const int32_t* values, int32_t value) {
   uint64_t word = 0;
@@ -112,6 +116,20 @@ void write_swizzled(const TextureView& view, const Registers& texels, uint64_t l
   }
 }
 
+// Lanes whose texel is in the level, and where that lies.
+uint64_t texel_offsets(const FormatInfo& format, const TextureLevel& level, const FetchOperands& operands,
+                       uint64_t lanes, uint32_t* offsets) {
+  uint64_t inside = 0;
+  for (int first = 0; first < kLanes; first += kVectorLanes) {
+    const I x = load<I>(operands.x + first), y = load<I>(operands.y + first);
+    const M here = index_inside(x, broadcast(level.width)) & index_inside(y, broadcast(level.height));
+    const I texel_size = broadcast(static_cast<int32_t>(format.texel_size));
+    store(as_u(y * broadcast(level.row_pitch) + x * texel_size), offsets + first);
+    inside |= bits_of(here) << first;
+  }
+  return inside & lanes;
+}
+
 void lod_from_derivatives(const TextureView& view, const SamplerState& sampler, const float* u, const float* v,
                           float* lod) {
   const float width = sampler.unnormalized ? 1.0f : static_cast<float>(view.levels[0].width);
@@ -148,32 +166,48 @@ struct LevelPlan {
   uint64_t between = 0;                // lanes with delta > 0
 };
 
-void plan_levels(const TextureView& view, const SamplerState& sampler, const SampleOperands& operands,
-                 LevelPlan& plan) {
+// Of each lane, before the sampler clamps it.
+void find_lods(const TextureView& view, const SamplerState& sampler, const SampleOperands& operands, float* lods) {
   alignas(64) float derived[kLanes];
   const bool implicit = operands.lod_source == LodSource::derivatives;
   if (implicit) lod_from_derivatives(view, sampler, operands.u, operands.v, derived);
-  const F last = broadcast(static_cast<float>(view.level_count - 1));
-  for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
-    const int first = vector * kVectorLanes;
+  for (int first = 0; first < kLanes; first += kVectorLanes) {
     const F operand = operands.lod != nullptr ? load<F>(operands.lod + first) : zero_f();
     const F base = implicit ? load<F>(derived + first) : operand;
     const F shader_bias = implicit ? operand : zero_f();
     const F bias = clamp_or_low(broadcast(sampler.lod_bias) + shader_bias, broadcast(-kMaxSamplerLodBias),
                                 broadcast(kMaxSamplerLodBias));
     const F sum = base + bias;
-    const F number = select(is_nan(sum), zero_f(), sum);
-    const F lambda = min(max(number, broadcast(sampler.min_lod)), broadcast(sampler.max_lod));
+    store(select(is_nan(sum), zero_f(), sum), lods + first);
+  }
+}
+
+// The finer level and the weight of the next one, of a level of detail between the levels of the view.
+HWY_API F split_levels(const SamplerState& sampler, F d, F& delta) {
+  if (sampler.mipmap_mode == VK_SAMPLER_MIPMAP_MODE_NEAREST) {
+    delta = zero_f();
+    return ceil(d + broadcast(0.5f)) - broadcast(1.0f);
+  }
+  const F fine = floor(d);
+  delta = d - fine;
+  return fine;
+}
+
+HWY_API F clamp_lod(const SamplerState& sampler, F lod) {
+  return min(max(lod, broadcast(sampler.min_lod)), broadcast(sampler.max_lod));
+}
+
+void plan_levels(const TextureView& view, const SamplerState& sampler, const SampleOperands& operands,
+                 LevelPlan& plan) {
+  alignas(64) float lods[kLanes];
+  find_lods(view, sampler, operands, lods);
+  const F last = broadcast(static_cast<float>(view.level_count - 1));
+  for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
+    const int first = vector * kVectorLanes;
+    const F lambda = clamp_lod(sampler, load<F>(lods + first));
     plan.magnified |= bits_of(le(lambda, zero_f())) << first;
-    const F d = clamp_or_low(lambda, zero_f(), last);
-    I fine;
-    F delta = zero_f();
-    if (sampler.mipmap_mode == VK_SAMPLER_MIPMAP_MODE_NEAREST) {
-      fine = truncate_in_range(ceil(d + broadcast(0.5f)) - broadcast(1.0f));
-    } else {
-      fine = truncate_in_range(d);
-      delta = d - to_float(fine);
-    }
+    F delta;
+    const I fine = truncate_in_range(split_levels(sampler, clamp_or_low(lambda, zero_f(), last), delta));
     store(fine, plan.fine + first);
     store(min(fine + broadcast(1), truncate_in_range(last)), plan.coarse + first);
     store(delta, plan.delta + first);
@@ -215,13 +249,11 @@ void read_mixed(const TextureView& view, LevelFunction function, const LevelJob&
 
 void sample_2d(const TextureView* view, const SamplerState* sampler, const SampleOperands& operands,
                float* const rgba[4]) {
-  if (view == nullptr || sampler == nullptr || view->level_count == 0 ||
-      kReaders[view->format->index].nearest == nullptr) {
-    return write_zero(operands.lanes, rgba);
-  }
-  const LevelFunction magnify = level_function(*view, *sampler, sampler->mag_filter);
-  const LevelFunction minify = level_function(*view, *sampler, sampler->min_filter);
-  LevelJob job = {&view->levels[0], sampler, operands.u, operands.v};
+  if (!can_sample(view, sampler)) return write_zero(operands.lanes, rgba);
+  const bool plain = operands.reference == nullptr && operands.offset_x == nullptr;
+  const LevelFunction magnify = level_function(*view, *sampler, sampler->mag_filter, plain);
+  const LevelFunction minify = level_function(*view, *sampler, sampler->min_filter, plain);
+  LevelJob job = make_job(*view, *sampler, operands);
   const bool one_way = view->level_count == 1 && magnify == minify;
   if (one_way && view->identity_swizzle) return magnify(job, operands.lanes, rgba);
 
@@ -245,34 +277,85 @@ void sample_2d(const TextureView* view, const SamplerState* sampler, const Sampl
   write_swizzled(*view, texels, operands.lanes, rgba);
 }
 
-void fetch_2d(const TextureView* view, const FetchOperands& operands, float* const rgba[4]) {
-  if (view == nullptr || view->level_count == 0 || kReaders[view->format->index].fetch == nullptr) {
-    return write_zero(operands.lanes, rgba);
+void gather_2d(const TextureView* view, const SamplerState* sampler, const SampleOperands& operands, uint32_t component,
+               float* const texels[4]) {
+  if (!can_sample(view, sampler)) return write_zero(operands.lanes, texels);
+  const LevelJob job = make_job(*view, *sampler, operands);
+  Footprints where;
+  find_footprints(job, true, operands.lanes, where);
+  constexpr int kOrder[] = {2, 3, 1, 0};
+  for (int i = 0; i < 4; ++i) {
+    Registers texel, swizzled;
+    read_tap(job, where, kOrder[i], operands.lanes, texel);
+    write_swizzled(*view, texel, operands.lanes, swizzled.rgba);
+    copy_lanes(swizzled.lane[component & 3], operands.lanes, texels[i]);
   }
-  const FetchFunction fetch = kReaders[view->format->index].fetch;
+}
+
+void query_lod_2d(const TextureView* view, const SamplerState* sampler, const SampleOperands& operands, float* level,
+                  float* lod) {
+  if (!can_sample(view, sampler)) {
+    fill_lanes(zero_f(), operands.lanes, level);
+    return fill_lanes(zero_f(), operands.lanes, lod);
+  }
+  alignas(64) float lods[kLanes];
+  find_lods(*view, *sampler, operands, lods);
+  const F last = broadcast(static_cast<float>(view->level_count - 1));
+  for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
+    const int first = vector * kVectorLanes;
+    const F lambda = load<F>(lods + first);
+    F delta;
+    const F fine = split_levels(*sampler, clamp_or_low(clamp_lod(*sampler, lambda), zero_f(), last), delta);
+    store_where(mask_of(operands.lanes, vector), fine + delta, level + first);
+    store_where(mask_of(operands.lanes, vector), lambda, lod + first);
+  }
+}
+
+void fetch_2d(const TextureView* view, const FetchOperands& operands, float* const rgba[4]) {
+  if (view == nullptr || view->level_count == 0) return write_zero(operands.lanes, rgba);
+  const TexelFunctions& format = kTexelTable[view->format->index];
   Registers texels = {};
-  for (uint32_t level = 0; level < view->level_count; ++level) {
-    uint64_t here = level == 0 ? operands.lanes : 0;
-    if (operands.level != nullptr) here = operands.lanes & lanes_equal(operands.level, static_cast<int32_t>(level));
-    if (here != 0) fetch(view->levels[level], operands, here, texels.rgba);
+  for (uint32_t i = 0; i < view->level_count; ++i) {
+    const TextureLevel& level = view->levels[i];
+    uint64_t here = i == 0 ? operands.lanes : 0;
+    if (operands.level != nullptr) here = operands.lanes & lanes_equal(operands.level, static_cast<int32_t>(i));
+    if (here == 0) continue;
+    alignas(64) uint32_t offsets[kLanes];
+    const uint64_t inside = texel_offsets(*view->format, level, operands, here, offsets);
+    if (here == ~uint64_t{0} && inside == here && view->identity_swizzle)
+      return format.load_gathered(level.data, offsets, inside, rgba);
+    Registers read;
+    format.load_gathered(level.data, offsets, inside, read.rgba);
+    for (int c = 0; c < 4; ++c) copy_lanes(read.lane[c], inside, texels.lane[c]);
   }
   write_swizzled(*view, texels, operands.lanes, rgba);
 }
 
-void size_2d(const TextureView* view, const int32_t* level, uint64_t lanes, int32_t* width, int32_t* height) {
-  for (int lane = 0; lane < kLanes; ++lane) {
-    if ((lanes >> lane & 1) == 0) continue;
+void store_2d(const TextureView* view, const FetchOperands& operands, const float* const rgba[4]) {
+  if (view == nullptr || view->level_count == 0) return;
+  const TexelFunctions& format = kTexelTable[view->format->index];
+  if (format.store_scattered == nullptr) return;
+  alignas(64) uint32_t offsets[kLanes];
+  const uint64_t inside = texel_offsets(*view->format, view->levels[0], operands, operands.lanes, offsets);
+  format.store_scattered(view->levels[0].data, offsets, inside, rgba);
+}
+
+void size_2d(const TextureView* view, const int32_t* level, uint64_t lanes, int32_t* const size_and_levels[3]) {
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const int lane = std::countr_zero(lanes);
     const uint32_t index = level != nullptr ? static_cast<uint32_t>(level[lane]) : 0;
     const bool present = view != nullptr && index < view->level_count;
-    width[lane] = present ? view->levels[index].width : 0;
-    height[lane] = present ? view->levels[index].height : 0;
+    size_and_levels[0][lane] = present ? view->levels[index].width : 0;
+    size_and_levels[1][lane] = present ? view->levels[index].height : 0;
+    size_and_levels[2][lane] = view != nullptr ? static_cast<int32_t>(view->level_count) : 0;
   }
 }
 
 }  // namespace
 
 extern const SamplingFunctions kSampling;
-const SamplingFunctions kSampling = {sample_2d, fetch_2d, size_2d, lod_from_derivatives};
+const SamplingFunctions kSampling = {sample_2d,           fetch_2d, store_2d, gather_2d, query_lod_2d, size_2d,
+                                     lod_from_derivatives};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lapilli

@@ -23,7 +23,10 @@ struct SampleOperands {
   const float* v = nullptr;
   const float* lod = nullptr;  // null: 0
   LodSource lod_source = LodSource::operand;
-  uint64_t lanes = 0;  // the others keep what the result's registers hold
+  uint64_t lanes = 0;                 // the others keep what the result's registers hold
+  const float* reference = nullptr;   // not null: texels become the result of comparing it with their depth, 0 0 1
+  const int32_t* offset_x = nullptr;  // texels, added before wrapping; both or none
+  const int32_t* offset_y = nullptr;
 };
 
 // Texture coordinates of texels: integers, also outside of the image.
@@ -44,8 +47,18 @@ struct SamplingFunctions {
                     float* const rgba[4]);
   // texelFetch: 0 0 0 0 (before the swizzle) for coordinates or levels outside of the view.
   void (*fetch_2d)(const TextureView* view, const FetchOperands& operands, float* const rgba[4]);
-  // textureSize: 0 0 for a level that the view does not have. `level` may be null: 0.
-  void (*size_2d)(const TextureView* view, const int32_t* level, uint64_t lanes, int32_t* width, int32_t* height);
+  // imageStore: nothing for coordinates outside of the view's first level, or for formats that are not stored.
+  void (*store_2d)(const TextureView* view, const FetchOperands& operands, const float* const rgba[4]);
+  // textureGather: component `component` (after the swizzle) of the four texels that a linear filter would read in the
+  // first level: lower left, lower right, upper right, upper left.
+  void (*gather_2d)(const TextureView* view, const SamplerState* sampler, const SampleOperands& operands,
+                    uint32_t component, float* const texels[4]);
+  // textureQueryLod of `operands`: the level that is read, then the level of detail before the sampler's clamp.
+  void (*query_lod_2d)(const TextureView* view, const SamplerState* sampler, const SampleOperands& operands,
+                       float* level, float* lod);
+  // textureSize and textureQueryLevels: width and height are 0 for a level that the view does not have. `level` may be
+  // null: 0.
+  void (*size_2d)(const TextureView* view, const int32_t* level, uint64_t lanes, int32_t* const size_and_levels[3]);
   // log2 of the larger footprint of a pixel in texels, the same for the lanes of a quad: 0.5 * log2(max(|d/dx|²,
   // |d/dy|²)). -Inf where nothing changes, NaN as 0. Before bias and clamps.
   void (*lod_from_derivatives)(const TextureView& view, const SamplerState& sampler, const float* u, const float* v,

@@ -342,12 +342,15 @@ TEST_P(Sampling, SizeOfLevels) {
   const Texture texture(VK_FORMAT_R8G8B8A8_UNORM, 13, 6, 3);
   alignas(64) int32_t level[64] = {0, 1, 2, 3, -1, INT32_MAX};
   int32_t width[64], height[64];
-  functions().size_2d(&texture.view, level, kAll, width, height);
+  int32_t levels[64];
+  int32_t* const out[3] = {width, height, levels};
+  functions().size_2d(&texture.view, level, kAll, out);
   const int32_t widths[] = {13, 6, 3, 0, 0, 0};
   const int32_t heights[] = {6, 3, 1, 0, 0, 0};
   for (size_t lane = 0; lane < 6; ++lane) {
     EXPECT_EQ(width[lane], widths[lane]);
     EXPECT_EQ(height[lane], heights[lane]);
+    EXPECT_EQ(levels[lane], 3);
   }
 }
 
@@ -377,7 +380,8 @@ TEST_P(Sampling, NothingBoundReadsZero) {
   functions().fetch_2d(nullptr, {zeros, zeros, zeros, 0xFF}, out.pointers);
   EXPECT_TRUE(zero_where(out, 0xFF));
   int32_t width[64], height[64];
-  functions().size_2d(nullptr, zeros, kAll, width, height);
+  int32_t* const size[3] = {width, height, width};
+  functions().size_2d(nullptr, zeros, kAll, size);
   EXPECT_EQ(width[63], 0);
   EXPECT_EQ(height[0], 0);
 }

@@ -32,6 +32,12 @@ HWY_API U float_to_unorm(F value, float largest) {
   return as_u(nearest_in_range(clamped * broadcast(largest)));
 }
 
+// To an integer in [-largest, largest].
+HWY_API I float_to_snorm(F value, float largest) {
+  const F number = select(is_nan(value), zero_f(), value);
+  return nearest_in_range(min(max(number, broadcast(-1.0f)), broadcast(1.0f)) * broadcast(largest));
+}
+
 // The same for a whole texel, from byte 0 on: to integers, of which the packing drops what is below 0.
 HWY_API I float_to_unorm8(F value) {
   return nearest_in_range(min(value * broadcast(255.0f), broadcast(255.0f)));  // a NaN becomes INT_MIN
@@ -57,7 +63,13 @@ struct Texel {
   static constexpr size_t word_of(int c) { return component(c).first_bit / 32; }
   static constexpr int shift_of(int c) { return component(c).first_bit % 32; }
   static constexpr uint32_t mask_of_bits(int c) { return 0xFFFFFFFFu >> (32 - component(c).bits); }
-  static constexpr float largest(int c) { return static_cast<float>(mask_of_bits(c)); }
+  static constexpr bool is_normalized(int c) {
+    return component(c).kind == ComponentKind::unorm || component(c).kind == ComponentKind::snorm;
+  }
+  // The code of 1.
+  static constexpr float largest(int c) {
+    return static_cast<float>(component(c).kind == ComponentKind::snorm ? mask_of_bits(c) >> 1 : mask_of_bits(c));
+  }
 
   // All colour components are UNORM of 8 bits: filters then work on the codes and divide once, at the end.
   static constexpr bool kFiltersCodes = [] {
@@ -77,7 +89,7 @@ struct Texel {
     return bits;
   }
 
-  // UNORM as the code, the others as decode().
+  // UNORM and SNORM as the code, the others as decode().
   template <int c>
   HWY_API F decode_code(const U* words) {
     constexpr ComponentLayout layout = component(c);
@@ -87,9 +99,13 @@ struct Texel {
       static_assert(layout.bits <= 16);
       if constexpr (kFiltersCodes) return to_float(as_i(byte_of<shift_of(c) / 8>(words[0])));
       return to_float(as_i(field<c>(words)));
-    } else if constexpr (layout.kind == ComponentKind::sint && layout.bits < 32) {
+    } else if constexpr ((layout.kind == ComponentKind::sint || layout.kind == ComponentKind::snorm) &&
+                         layout.bits < 32) {
       constexpr int unused = 32 - layout.bits;
-      return as_f(shift_right<unused>(as_i(shift_left<unused>(field<c>(words)))));
+      const I code = shift_right<unused>(as_i(shift_left<unused>(field<c>(words))));
+      return layout.kind == ComponentKind::snorm ? to_float(code) : as_f(code);
+    } else if constexpr (layout.kind == ComponentKind::sfloat && layout.bits == 16) {
+      return from_half(field<c>(words));
     } else {
       static_assert(layout.kind != ComponentKind::sfloat || layout.bits == 32);
       return as_f(field<c>(words));
@@ -100,8 +116,10 @@ struct Texel {
   template <int c>
   HWY_API F finish_code(F code) {
     constexpr ComponentLayout layout = component(c);
-    if constexpr (layout.kind != ComponentKind::unorm) {
+    if constexpr (!is_normalized(c)) {
       return code;
+    } else if constexpr (layout.kind == ComponentKind::snorm) {
+      return max(code / broadcast(largest(c)), broadcast(-1.0f));
     } else if constexpr (layout.bits == 8) {
       return unorm8_to_float(code);
     } else {
@@ -137,7 +155,9 @@ struct Texel {
     if constexpr (layout.kind != ComponentKind::none) {
       U bits = as_u(value);
       if constexpr (layout.kind == ComponentKind::unorm) bits = float_to_unorm(value, largest(c));
-      if constexpr (layout.kind == ComponentKind::sfloat) bits = as_u(canonical(value));
+      if constexpr (layout.kind == ComponentKind::snorm) bits = as_u(float_to_snorm(value, largest(c)));
+      if constexpr (layout.kind == ComponentKind::sfloat && layout.bits == 32) bits = as_u(canonical(value));
+      if constexpr (layout.kind == ComponentKind::sfloat && layout.bits == 16) bits = to_half(value);
       if constexpr (layout.bits < 32 && layout.kind != ComponentKind::unorm) bits = bits & broadcast(mask_of_bits(c));
       if constexpr (shift_of(c) != 0) bits = shift_left<shift_of(c)>(bits);
       words[word_of(c)] = words[word_of(c)] | bits;

@@ -2,6 +2,7 @@
 #include "image/texel.h"
 
 #include <array>
+#include <bit>
 #include <cstring>
 #include <utility>
 
@@ -324,10 +325,39 @@ void load_gathered(const std::byte* base, const uint32_t* byte_offsets, uint64_t
   }
 }
 
+template <size_t kFormat>
+void store_scattered(std::byte* base, const uint32_t* byte_offsets, uint64_t lanes, const float* const registers[4]) {
+  using T = Texel<kFormat>;
+  const Color color(registers);
+  BatchWords<T::kWords> words;
+  for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
+    U texel[T::kWords];
+    encode_vector<T>(color, vector, texel);
+    for (size_t w = 0; w < T::kWords; ++w) store(texel[w], &words.word[w][vector * kVectorLanes]);
+  }
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const int lane = std::countr_zero(lanes);
+    std::byte* const to = base + byte_offsets[lane];
+    for (size_t w = 0; w < T::kWords; ++w) std::memcpy(to + 4 * w, &words.word[w][lane], 4);
+  }
+}
+
+template <size_t kFormat>
+constexpr TexelFunctions functions_of() {
+  TexelFunctions functions = {};
+  functions.load_gathered = load_gathered<kFormat>;
+  if constexpr (kFormats[kFormat].has(kStorage)) functions.store_scattered = store_scattered<kFormat>;
+  if constexpr (kFormats[kFormat].is_target()) {
+    functions.blend_quads = blend_of<kFormat>();
+    functions.load_quads = load_quads<kFormat>;
+    functions.store_quads = store_quads<kFormat>;
+  }
+  return functions;
+}
+
 template <size_t... kIndices>
 constexpr std::array<TexelFunctions, sizeof...(kIndices)> make_table(std::index_sequence<kIndices...>) {
-  return {
-      TexelFunctions{blend_of<kIndices>(), load_quads<kIndices>, store_quads<kIndices>, load_gathered<kIndices>}...};
+  return {functions_of<kIndices>()...};
 }
 
 }  // namespace

@@ -34,8 +34,10 @@ struct BlendEquation {
 // i of `lanes`. Lanes 4q … 4q+3 are the four texels of places.quad[q], which is touched only where one of its lanes is
 // set (or in a whole block), and written in the lanes that are set only.
 //   UNORM: c / (2^b - 1), correctly rounded; stored: clamped to [0, 1], NaN as 0, times 2^b - 1, to the nearest
-//   integer, half to even. A NaN stored as a float becomes 0x7FC00000. Components that the format lacks load as 0,
-//   alpha as 1.
+//   integer, half to even. SNORM: max(c / (2^(b-1) - 1), -1), and back alike. A NaN stored as a float becomes
+//   0x7FC00000 (0x7E00 in 16 bits), an integer keeps its lowest bits. Components that the format lacks load as 0, alpha
+//   as 1.
+// The functions on quads are null for formats of no attachment.
 struct TexelFunctions {
   // Blends registers of a source colour into the texels. Formats of four UNORM8 components; null for others.
   void (*blend_quads)(std::byte* plane, const QuadPlaces& places, uint64_t lanes, const float* const source[4],
@@ -45,6 +47,9 @@ struct TexelFunctions {
   // Changes the components whose bit is set in `components` (1 R, 2 G, 4 B, 8 A), in the lanes of `lanes`.
   void (*store_quads)(std::byte* plane, const QuadPlaces& places, uint64_t lanes, const float* const registers[4],
                       uint32_t components);
+  // The same for whole texels anywhere: base + byte_offsets[lane] (below 2^31), in the order of the lanes.
+  void (*store_scattered)(std::byte* base, const uint32_t* byte_offsets, uint64_t lanes,
+                          const float* const registers[4]);
   // Texels at base + byte_offsets[lane] (below 2^31, any alignment). Other lanes: 0 0 0 1, and their memory is not
   // touched.
   void (*load_gathered)(const std::byte* base, const uint32_t* byte_offsets, uint64_t lanes, float* const registers[4]);

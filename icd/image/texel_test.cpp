@@ -203,6 +203,7 @@ TEST_P(Texels, FloatsKeepTheirBitsAndNansBecomeCanonical) {
 // R32G32 is no format of an attachment, but has two words.
 TEST_P(Texels, LoadsAndStoresOfABlockAreThoseOfItsQuads) {
   for (const FormatInfo& info : kFormats) {
+    if (!info.is_target()) continue;
     const std::vector<std::byte> before = random_bytes(kTileTexels * info.texel_size, 20);
     for (uint64_t mask : masks()) {
       Registers by_quads, by_block;
@@ -234,57 +235,111 @@ TEST_P(Texels, LoadTouchesOnlyLiveQuadsAndWantedRegisters) {
   }
 }
 
-TEST_P(Texels, GathersEveryVertexFormat) {
+double half_value(uint32_t half) {
+  const double sign = (half & 0x8000) != 0 ? -1 : 1, fraction = half & 1023;
+  const int exponent = half >> 10 & 31;
+  if (exponent == 31) return fraction != 0 ? std::nan("") : sign * INFINITY;
+  return sign * std::ldexp(exponent == 0 ? fraction : 1024 + fraction, std::max(exponent, 1) - 25);
+}
+
+// A component's bits in a register, from the format's definition.
+uint32_t decoded(const ComponentLayout& layout, const std::byte* texel) {
+  uint32_t code = 0;
+  std::memcpy(&code, texel + layout.first_bit / 8, layout.bits / 8);
+  const uint32_t unused = 32u - layout.bits;
+  const int32_t number = static_cast<int32_t>(code << unused) >> unused;
+  const double largest = std::exp2(layout.bits - (layout.kind == ComponentKind::snorm ? 1 : 0)) - 1;
+  switch (layout.kind) {
+    case ComponentKind::unorm:
+      return bits(static_cast<float>(code / largest));
+    case ComponentKind::snorm:
+      return bits(static_cast<float>(std::max(number / largest, -1.0)));
+    case ComponentKind::sint:
+      return static_cast<uint32_t>(number);
+    case ComponentKind::sfloat:
+      return layout.bits == 16 && (code & 0x7FFF) > 0x7C00 ? 0x7FC00000
+             : layout.bits == 16                           ? bits(static_cast<float>(half_value(code)))
+                                                           : code;
+    default:
+      return code;
+  }
+}
+
+TEST_P(Texels, GathersEveryFormat) {
   std::vector<std::byte> memory = random_bytes(4096, 10);
   std::mt19937 random(11);
-  for (const FormatInfo& info : kFormats) {
-    if (!info.has(kVertex)) continue;
-    alignas(64) uint32_t offsets[64];
-    for (uint32_t& offset : offsets) offset = static_cast<uint32_t>(random() % (memory.size() - info.texel_size + 1));
-    offsets[0] = static_cast<uint32_t>(memory.size()) - info.texel_size;  // up to the last byte
-    const uint64_t lanes = 0xFEDCBA9876543211;
-    for (uint32_t lane = 0; lane < 64; ++lane) {
-      if ((lanes >> lane & 1) == 0) offsets[lane] = 0x7FFFFF00;
-    }
-    Registers out;
-    texel_functions(info, GetParam()).load_gathered(memory.data(), offsets, lanes, out.pointers);
-    const uint32_t one = info.is_integer() ? 1 : bits(1.0f);
-    for (uint32_t lane = 0; lane < 64; ++lane) {
-      for (uint32_t c = 0; c < 4; ++c) {
-        uint32_t expected = c == 3 ? one : 0;
-        if ((lanes >> lane & 1) != 0 && info.components[c].bits != 0) {
-          const std::byte* field = &memory[offsets[lane] + info.components[c].first_bit / 8];
-          std::memcpy(&expected, field, info.components[c].bits / 8);
-          if (info.components[c].kind == ComponentKind::unorm) {
-            expected = bits(static_cast<float>(std::to_integer<uint8_t>(*field)) / 255.0f);
-          }
+  for (int round = 0; round < 50; ++round) {
+    for (const FormatInfo& info : kFormats) {
+      alignas(64) uint32_t offsets[64];
+      for (uint32_t& offset : offsets) offset = static_cast<uint32_t>(random() % (memory.size() - info.texel_size + 1));
+      offsets[0] = static_cast<uint32_t>(memory.size()) - info.texel_size;  // up to the last byte
+      const uint64_t lanes = 0xFEDCBA9876543211;
+      for (uint32_t lane = 0; lane < 64; ++lane) {
+        if ((lanes >> lane & 1) == 0) offsets[lane] = 0x7FFFFF00;
+      }
+      Registers out;
+      texel_functions(info, GetParam()).load_gathered(memory.data(), offsets, lanes, out.pointers);
+      const uint32_t one = info.is_integer() ? 1 : bits(1.0f);
+      for (uint32_t lane = 0; lane < 64; ++lane) {
+        for (uint32_t c = 0; c < 4; ++c) {
+          uint32_t expected = c == 3 ? one : 0;
+          if ((lanes >> lane & 1) != 0 && info.components[c].bits != 0)
+            expected = decoded(info.components[c], &memory[offsets[lane]]);
+          ASSERT_EQ(bits(out.value[c][lane]), expected) << info.name << " lane " << lane << " component " << c;
         }
-        ASSERT_EQ(bits(out.value[c][lane]), expected) << info.name << " lane " << lane << " component " << c;
       }
     }
+  }
+}
+
+// Codes come back as they were; what lies beside them, and lanes that are not asked for, stay.
+TEST_P(Texels, ScattersWhatGathersRead) {
+  std::mt19937 random(13);
+  for (const FormatInfo& info : kFormats) {
+    if (!info.has(kStorage)) continue;
+    std::vector<std::byte> from = random_bytes(64 * info.texel_size, 14), to(128 * info.texel_size), expected = to;
+    alignas(64) uint32_t source[64], target[64];
+    const uint64_t lanes = 0x8FFFFFFFFFFFFF7E;
+    for (uint32_t lane = 0; lane < 64; ++lane) {
+      source[lane] = lane * info.texel_size;
+      target[lane] = (lanes >> lane & 1) != 0 ? (lane * 2 + 1) * info.texel_size : 0x7FFFFF00;
+      std::byte* const texel = &from[source[lane]];
+      for (const ComponentLayout& layout : info.components) {  // no NaN, no second code of -1
+        if (layout.kind == ComponentKind::sfloat) texel[(layout.first_bit + layout.bits) / 8u - 1] &= std::byte{0xBF};
+        if (layout.kind == ComponentKind::snorm) texel[layout.first_bit / 8] |= std::byte{1};
+      }
+      if ((lanes >> lane & 1) != 0) std::memcpy(&expected[target[lane]], texel, info.texel_size);
+    }
+    Registers values;
+    const TexelFunctions& f = functions(info.format);
+    f.load_gathered(from.data(), source, kAll, values.pointers);
+    f.store_scattered(to.data(), target, lanes, values.const_pointers);
+    ASSERT_EQ(to, expected) << info.name;
   }
 }
 
 // The scalar code of a clear and the lanes of a draw agree on every value.
 TEST_P(Texels, ClearsPackLikeStores) {
   std::mt19937 random(12);
-  for (VkFormat format : {VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R32G32B32A32_SFLOAT}) {
-    const FormatInfo& info = *find_format(format);
+  for (const FormatInfo& info : kFormats) {
+    if (!info.has(kStorage)) continue;
+    alignas(64) uint32_t offsets[64];
+    for (uint32_t lane = 0; lane < 64; ++lane) offsets[lane] = lane * info.texel_size;
     for (int round = 0; round < 500; ++round) {
       Registers in;
       for (auto& reg : in.value) {
         for (float& value : reg) {
           const uint32_t pattern = static_cast<uint32_t>(random());
-          value = round % 2 == 0 ? std::bit_cast<float>(pattern) : static_cast<float>(pattern) * 0x1p-32f;
+          value = round % 2 == 0 ? std::bit_cast<float>(pattern) : static_cast<float>(pattern) * 0x1p-31f - 1.0f;
         }
       }
       std::vector<std::byte> plane(64 * info.texel_size);
-      functions(format).store_quads(plane.data(), QuadIndices().places(), kAll, in.const_pointers, 15);
+      functions(info.format).store_scattered(plane.data(), offsets, kAll, in.const_pointers);
       for (uint32_t lane = 0; lane < 64; ++lane) {
         VkClearValue clear = {};
         for (uint32_t c = 0; c < 4; ++c) clear.color.float32[c] = in.value[c][lane];
         const PackedTexel packed = pack_clear_value(info, clear);
-        ASSERT_EQ(std::memcmp(packed.data(), &plane[lane * info.texel_size], info.texel_size), 0);
+        ASSERT_EQ(std::memcmp(packed.data(), &plane[lane * info.texel_size], info.texel_size), 0) << info.name;
       }
     }
   }

@@ -100,7 +100,7 @@ Result<ImageLayout> make_layout(VkFormat format, const ImageExtent& extent) {
   return layout;
 }
 
-Result<TextureView> make_view(const ImageLayout& layout, const std::byte* image, VkFormat format,
+Result<TextureView> make_view(const ImageLayout& layout, std::byte* image, VkFormat format,
                               const VkComponentMapping& mapping, const VkImageSubresourceRange& range) {
   TextureView view;
   view.format = find_format(format);

@@ -72,8 +72,8 @@ inline uint64_t texel_offset(const ImageLayout& layout, uint32_t level, uint32_t
 enum class Swizzle : uint8_t { r, g, b, a, zero, one };
 
 struct TextureLevel {
-  const std::byte* data = nullptr;  // first texel
-  int32_t width = 0;                // texels
+  std::byte* data = nullptr;  // first texel
+  int32_t width = 0;          // texels
   int32_t height = 0;
   int32_t row_pitch = 0;  // bytes
   // Bytes from `data` to any texel fit 31 bits: 8192 rows of at most 8192 * 16 bytes.
@@ -92,7 +92,7 @@ struct TextureView {
 
 // `image` is the image's first byte. The range may use VK_REMAINING_MIP_LEVELS and VK_REMAINING_ARRAY_LAYERS;
 // VK_ERROR_UNKNOWN if it does not lie in the image or the view's format has another texel size.
-Result<TextureView> make_view(const ImageLayout& layout, const std::byte* image, VkFormat format,
+Result<TextureView> make_view(const ImageLayout& layout, std::byte* image, VkFormat format,
                               const VkComponentMapping& mapping, const VkImageSubresourceRange& range);
 
 struct SamplerState {

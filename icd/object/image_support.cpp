@@ -25,6 +25,7 @@ bool usage_supported(const FormatInfo& format, VkImageUsageFlags usage) {
   constexpr Rule kRules[] = {
       {VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, kTransfer},
       {VK_IMAGE_USAGE_SAMPLED_BIT, kSampled},
+      {VK_IMAGE_USAGE_STORAGE_BIT, kStorage},
       {VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, kColorTarget},
       {VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, kDepthTarget},
   };

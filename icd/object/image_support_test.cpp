@@ -35,6 +35,8 @@ TEST(ImageSupport, RefusesWhatThereIsNot) {
   EXPECT_EQ(ask(image), VK_ERROR_FORMAT_NOT_SUPPORTED);
   image = kTexture;
   image.usage |= VK_IMAGE_USAGE_STORAGE_BIT;
+  EXPECT_EQ(ask(image), VK_SUCCESS);
+  image.format = VK_FORMAT_B8G8R8A8_UNORM;
   EXPECT_EQ(ask(image), VK_ERROR_FORMAT_NOT_SUPPORTED);
   image = kTexture;
   image.flags = VK_IMAGE_CREATE_SPARSE_BINDING_BIT;

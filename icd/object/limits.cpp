@@ -27,8 +27,8 @@ void set_image_limits(VkPhysicalDeviceLimits& limits) {
   limits.maxSamplerAnisotropy = 1.0f;
   limits.minTexelOffset = -8;
   limits.maxTexelOffset = 7;
-  limits.minTexelGatherOffset = 0;  // shaderImageGatherExtended is not offered
-  limits.maxTexelGatherOffset = 0;
+  limits.minTexelGatherOffset = -8;
+  limits.maxTexelGatherOffset = 7;
   limits.minInterpolationOffset = 0;  // sampleRateShading is not offered
   limits.maxInterpolationOffset = 0;
   limits.subPixelInterpolationOffsetBits = 0;
@@ -43,7 +43,7 @@ void set_descriptor_limits(VkPhysicalDeviceLimits& limits) {
   limits.maxPerStageDescriptorUniformBuffers = kMaxDescriptors;
   limits.maxPerStageDescriptorStorageBuffers = kMaxDescriptors;
   limits.maxPerStageDescriptorSampledImages = kMaxDescriptors;
-  limits.maxPerStageDescriptorStorageImages = 4;  // the least there may be: no storage images yet
+  limits.maxPerStageDescriptorStorageImages = kMaxDescriptors;
   limits.maxPerStageDescriptorInputAttachments = kMaxColorAttachments;
   limits.maxPerStageResources = kMaxDescriptors * 4;
   limits.maxDescriptorSetSamplers = kMaxDescriptors;
@@ -52,7 +52,7 @@ void set_descriptor_limits(VkPhysicalDeviceLimits& limits) {
   limits.maxDescriptorSetStorageBuffers = kMaxDescriptors;
   limits.maxDescriptorSetStorageBuffersDynamic = kMaxDynamicBuffers;
   limits.maxDescriptorSetSampledImages = kMaxDescriptors;
-  limits.maxDescriptorSetStorageImages = 24;
+  limits.maxDescriptorSetStorageImages = kMaxDescriptors;
   limits.maxDescriptorSetInputAttachments = kMaxColorAttachments;
   limits.minTexelBufferOffsetAlignment = 16;
   limits.minUniformBufferOffsetAlignment = 16;

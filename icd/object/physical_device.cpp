@@ -65,6 +65,11 @@ VkPhysicalDeviceProperties device_properties(const PhysicalDevice& device) {
 VkPhysicalDeviceFeatures device_features() {
   VkPhysicalDeviceFeatures features = {};
   features.robustBufferAccess = VK_TRUE;
+  features.shaderImageGatherExtended = VK_TRUE;
+  features.shaderStorageImageReadWithoutFormat = VK_TRUE;
+  features.shaderStorageImageWriteWithoutFormat = VK_TRUE;
+  features.shaderSampledImageArrayDynamicIndexing = VK_TRUE;
+  features.shaderStorageImageArrayDynamicIndexing = VK_TRUE;
   return features;
 }
 

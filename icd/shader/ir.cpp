@@ -21,7 +21,10 @@ ImmRoles imm_roles(Opcode opcode) {
       return {ImmRole::none, ImmRole::bytes};
     case Opcode::sample_2d:
     case Opcode::sample_2d_lod:
+    case Opcode::gather_2d:
+    case Opcode::query_lod_2d:
     case Opcode::fetch_2d:
+    case Opcode::store_2d:
     case Opcode::size_2d:
       return {ImmRole::resource, ImmRole::resource};
     case Opcode::builtin:
@@ -52,6 +55,25 @@ ImmRoles imm_roles(Opcode opcode) {
       return {ImmRole::mask, ImmRole::backward};
     case Opcode::jump_if_none:
       return {ImmRole::forward, ImmRole::none};
+    default:
+      return {};
+  }
+}
+
+ImageList image_list(Opcode opcode) {
+  switch (opcode) {
+    case Opcode::sample_2d:
+    case Opcode::sample_2d_lod:
+    case Opcode::gather_2d:
+      return {8, 2};
+    case Opcode::fetch_2d:
+      return {5, 2};
+    case Opcode::store_2d:
+      return {8, 6};
+    case Opcode::query_lod_2d:
+      return {4, 2};
+    case Opcode::size_2d:
+      return {3, 0};
     default:
       return {};
   }

@@ -68,6 +68,13 @@ struct ImmRoles {
 };
 ImmRoles imm_roles(Opcode opcode);
 
+// Operand list of an op on images: two descriptor indices, `required` operands, and some that may be kNoReg.
+struct ImageList {
+  uint32_t count = 0;  // 0: the op is none
+  uint32_t required = 0;
+};
+ImageList image_list(Opcode opcode);
+
 using Reg = uint32_t;
 constexpr Reg kNoReg = 0xFFFFFFFF;
 constexpr uint32_t kNoLabelPosition = 0xFFFFFFFF;  // in Code::labels: not placed yet

@@ -196,11 +196,12 @@ class Verifier {
       return fail_here("list outside the operand list");
     }
     const bool color = writes_color(instruction.op);
-    const uint32_t count = color ? 4 : instruction.op == Opcode::size_2d ? 3 : 5;
+    const ImageList image = image_list(instruction.op);
+    const uint32_t count = color ? 4 : image.count;
     if (instruction.list_count != count) return fail_here("wrong length of the operand list");
     for (uint32_t i = 0; i < count; ++i) {
       const Reg reg = code_.operand_list[instruction.list_first + i];
-      const bool optional = color ? (instruction.imm2 >> i & 1) == 0 : i < 2 || i == 4;
+      const bool optional = color ? (instruction.imm2 >> i & 1) == 0 : i < 2 || i >= 2 + image.required;
       const char which = static_cast<char>('0' + i);
       if (reg == kNoReg && !optional) return fail_operand(which, "is missing");
       if (reg != kNoReg && !check_use(which, reg)) return false;

@@ -21,7 +21,8 @@ class Corpus : public testing::Test {
   Corpus() {
     for (uint32_t set = 0; set < kSets; ++set) {
       for (uint32_t binding = 0; binding < kBindings; ++binding)
-        slots.push_back({set, binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_ALL, binding, 1, -1});
+        slots.push_back(
+            {set, binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_ALL, binding, 2, -1});  // arrays overlap
     }
     fill();
     table.push_constants = buffers[0].data();
@@ -119,7 +120,7 @@ class Corpus : public testing::Test {
 
   std::vector<BindingSlot> slots;
   std::vector<std::vector<std::byte>> buffers;
-  Descriptor descriptors[kBindings];
+  Descriptor descriptors[kBindings + 1];
   ResourceTable table;
   std::vector<VertexAttribute> attributes;
   std::vector<VkFormat> formats;

@@ -20,7 +20,7 @@ struct Setting {
   Setting() {
     for (uint32_t set = 0; set < 4; ++set) {
       for (uint32_t binding = 0; binding < 8; ++binding)
-        slots.push_back({set, binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_ALL, binding, 1, -1});
+        slots.push_back({set, binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_ALL, binding, 2, -1});
     }
     for (uint32_t location = 0; location < 8; ++location)
       attributes.push_back({location, 0, 16 * location, VK_FORMAT_R32G32B32A32_SFLOAT});

@@ -62,17 +62,55 @@ struct Results {
   }
 };
 
-template <bool kDerivatives>
+const float* float_operand(const Op* op, Frame* frame, uint32_t i) {
+  return reinterpret_cast<const float*>(list_operand(op, frame, i));
+}
+const int32_t* int_operand(const Op* op, Frame* frame, uint32_t i) {
+  return reinterpret_cast<const int32_t*>(list_operand(op, frame, i));
+}
+
+SampleOperands sample_operands(const Op* op, Frame* frame, LodSource source, uint64_t lanes) {
+  SampleOperands operands;
+  operands.u = float_operand(op, frame, 2);
+  operands.v = float_operand(op, frame, 3);
+  operands.lod = float_operand(op, frame, 4);
+  operands.lod_source = source;
+  operands.lanes = lanes;
+  operands.reference = float_operand(op, frame, 5);
+  operands.offset_x = int_operand(op, frame, 6);
+  operands.offset_y = int_operand(op, frame, 7);
+  return operands;
+}
+
+template <LodSource kSource>
 struct Sample {
   static constexpr uint32_t kResults = 4;
   static void run(const Op* op, Frame* frame, const Descriptor& texture, const Descriptor& sampler, uint64_t lanes) {
+    frame->sampling->sample_2d(texture.texture, sampler.sampler, sample_operands(op, frame, kSource, lanes),
+                               Results(op, frame).rgba);
+  }
+};
+
+struct Gather {
+  static constexpr uint32_t kResults = 4;
+  static void run(const Op* op, Frame* frame, const Descriptor& texture, const Descriptor& sampler, uint64_t lanes) {
+    const uint32_t* const component = list_operand(op, frame, 4);
+    frame->sampling->gather_2d(texture.texture, sampler.sampler, sample_operands(op, frame, LodSource::operand, lanes),
+                               component == nullptr ? 0 : component[std::countr_zero(lanes) % kLanes],
+                               Results(op, frame).rgba);
+  }
+};
+
+struct QueryLod {
+  static constexpr uint32_t kResults = 2;
+  static void run(const Op* op, Frame* frame, const Descriptor& texture, const Descriptor& sampler, uint64_t lanes) {
     SampleOperands operands;
-    operands.u = reinterpret_cast<const float*>(list_operand(op, frame, 2));
-    operands.v = reinterpret_cast<const float*>(list_operand(op, frame, 3));
-    operands.lod = reinterpret_cast<const float*>(list_operand(op, frame, 4));
-    operands.lod_source = kDerivatives ? LodSource::derivatives : LodSource::operand;
+    operands.u = float_operand(op, frame, 2);
+    operands.v = float_operand(op, frame, 3);
+    operands.lod_source = LodSource::derivatives;
     operands.lanes = lanes;
-    frame->sampling->sample_2d(texture.texture, sampler.sampler, operands, Results(op, frame).rgba);
+    float* const d = reinterpret_cast<float*>(reg(frame, op->dst));
+    frame->sampling->query_lod_2d(texture.texture, sampler.sampler, operands, d, d + kLanes);
   }
 };
 
@@ -80,32 +118,47 @@ struct Fetch {
   static constexpr uint32_t kResults = 4;
   static void run(const Op* op, Frame* frame, const Descriptor& texture, const Descriptor&, uint64_t lanes) {
     FetchOperands operands;
-    operands.x = reinterpret_cast<const int32_t*>(list_operand(op, frame, 2));
-    operands.y = reinterpret_cast<const int32_t*>(list_operand(op, frame, 3));
-    operands.level = reinterpret_cast<const int32_t*>(list_operand(op, frame, 4));
+    operands.x = int_operand(op, frame, 2);
+    operands.y = int_operand(op, frame, 3);
+    operands.level = int_operand(op, frame, 4);
     operands.lanes = lanes;
     frame->sampling->fetch_2d(texture.texture, operands, Results(op, frame).rgba);
   }
 };
 
-struct Size {
-  static constexpr uint32_t kResults = 2;
+struct Store {
+  static constexpr uint32_t kResults = 0;
   static void run(const Op* op, Frame* frame, const Descriptor& texture, const Descriptor&, uint64_t lanes) {
-    const int32_t* const level = reinterpret_cast<const int32_t*>(list_operand(op, frame, 2));
-    int32_t* const d = reinterpret_cast<int32_t*>(reg(frame, op->dst));
-    frame->sampling->size_2d(texture.texture, level, lanes, d, d + kLanes);
+    FetchOperands operands;
+    operands.x = int_operand(op, frame, 2);
+    operands.y = int_operand(op, frame, 3);
+    operands.lanes = lanes & frame->write;
+    const float* const rgba[4] = {float_operand(op, frame, 4), float_operand(op, frame, 5), float_operand(op, frame, 6),
+                                  float_operand(op, frame, 7)};
+    frame->sampling->store_2d(texture.texture, operands, rgba);
   }
 };
 
-using op_sample_2d = ForEachImage<Sample<true>>;
-using op_sample_2d_lod = ForEachImage<Sample<false>>;
+struct Size {
+  static constexpr uint32_t kResults = 3;
+  static void run(const Op* op, Frame* frame, const Descriptor& texture, const Descriptor&, uint64_t lanes) {
+    int32_t* const d = reinterpret_cast<int32_t*>(reg(frame, op->dst));
+    int32_t* const results[] = {d, d + kLanes, d + 2 * kLanes};
+    frame->sampling->size_2d(texture.texture, int_operand(op, frame, 2), lanes, results);
+  }
+};
+
+using op_sample_2d = ForEachImage<Sample<LodSource::derivatives>>;
+using op_sample_2d_lod = ForEachImage<Sample<LodSource::operand>>;
+using op_gather_2d = ForEachImage<Gather>;
+using op_query_lod_2d = ForEachImage<QueryLod>;
 using op_fetch_2d = ForEachImage<Fetch>;
+using op_store_2d = ForEachImage<Store>;
 using op_size_2d = ForEachImage<Size>;
 
 const HandlerEntry kEntries[] = {
-    LAPILLI_FAT(sample_2d, false),
-    LAPILLI_FAT(sample_2d_lod, false),
-    LAPILLI_FAT(fetch_2d, false),
+    LAPILLI_FAT(sample_2d, false),    LAPILLI_FAT(sample_2d_lod, false), LAPILLI_FAT(gather_2d, false),
+    LAPILLI_FAT(query_lod_2d, false), LAPILLI_FAT(fetch_2d, false),      LAPILLI_FAT(store_2d, false),
     LAPILLI_FAT(size_2d, false),
 };
 

@@ -210,7 +210,7 @@ void one_op(benchmark::State& state, SimdTarget target, Opcode op, Op operands, 
   TextureView view;
   view.format = find_format(VK_FORMAT_R8G8B8A8_UNORM);
   view.level_count = view.layer_count = 1;
-  view.levels[0] = {reinterpret_cast<const std::byte*>(texels.data()), 256, 256, 1024};
+  view.levels[0] = {reinterpret_cast<std::byte*>(texels.data()), 256, 256, 1024};
   SamplerState sampler;
   sampler.mag_filter = sampler.min_filter = VK_FILTER_LINEAR;
   Descriptor descriptor = {reinterpret_cast<std::byte*>(data), sizeof data, sizeof data, &view, &sampler};
@@ -218,7 +218,7 @@ void one_op(benchmark::State& state, SimdTarget target, Opcode op, Op operands, 
   table.sets[0] = &descriptor;
   const ResourceRef ref;
   const BufferRange range = {descriptor.data, descriptor.size};
-  uint16_t list[] = {kNoOperand, kNoOperand, 0, 1, kNoOperand, 0, 1, 0, 1};
+  uint16_t list[] = {kNoOperand, kNoOperand, 0, 1, kNoOperand, kNoOperand, kNoOperand, kNoOperand, 0, 1, 0, 1};
   uint64_t masks[2] = {};
   Frame& frame = fixture.test.frame();
   frame.vertices = &vertices;
@@ -334,8 +334,8 @@ void add_all() {
       add_op(target, "depth_test and write" + end, Opcode::depth_test,
              {nullptr, 0, 0, 0, 0, VK_COMPARE_OP_ALWAYS | 8, 1}, quads);
       add_op(target, "load_color" + end, Opcode::load_color, {nullptr, 4, 0, 0, 0, 0, 0}, quads);
-      add_op(target, "store_color" + end, Opcode::store_color, {nullptr, 0, 5, 0, 0, 0, 15}, quads);
-      add_op(target, "blend_color" + end, Opcode::blend_color, {nullptr, 0, 5, 0, 0, 0, 0}, quads);
+      add_op(target, "store_color" + end, Opcode::store_color, {nullptr, 0, 8, 0, 0, 0, 15}, quads);
+      add_op(target, "blend_color" + end, Opcode::blend_color, {nullptr, 0, 8, 0, 0, 0, 0}, quads);
     }
   }
 }

@@ -19,7 +19,8 @@ class Splitter {
  public:
   explicit Splitter(Code& code) : code_(code) {
     for (const Instruction& instruction : code.instructions) {
-      stores_ |= instruction.op == Opcode::store_buffer;
+      const bool writes = (op_info(instruction.op).effects & kWritesMemory) != 0;
+      stores_ |= writes && imm_roles(instruction.op).imm == ImmRole::resource;
       crosses_lanes_ |= (op_info(instruction.op).effects & kCrossLane) != 0;
     }
   }

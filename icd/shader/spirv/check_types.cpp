@@ -30,8 +30,7 @@ Result<void> check_image(const SpirvModule& module, const SpirvInst& inst) {
                         "images of dimension " + spirv_enum_name(SpirvEnum::Dim, inst[3]) + " are not supported");
   if (inst[5] != 0) return module.error(inst.word, "arrayed images are not supported");
   if (inst[6] != 0) return module.error(inst.word, "multisampled images are not supported");
-  if (inst[7] == 2) return module.error(inst.word, "storage images are not supported");
-  if (inst[7] != 1) return module.error(inst.word, "it is not known if the image is sampled");
+  if (inst[7] != 1 && inst[7] != 2) return module.error(inst.word, "it is not known if the image is sampled");
   if (sampled_type != spv::Op::OpTypeFloat && sampled_type != spv::Op::OpTypeInt)
     return module.error(inst.word, "its sampled type is no number");
   return {};

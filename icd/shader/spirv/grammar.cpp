@@ -28,8 +28,8 @@ constexpr EnumName kNames[] = {
 #undef SPIRV_NAME
 };
 
-constexpr const char* kEnumNames[] = {"BuiltIn",       "Capability",     "Decoration", "Dim",
-                                      "ExecutionMode", "ExecutionModel", "ExtInst",    "StorageClass"};
+constexpr const char* kEnumNames[] = {"BuiltIn",        "Capability", "Decoration",    "Dim",         "ExecutionMode",
+                                      "ExecutionModel", "ExtInst",    "ImageOperands", "StorageClass"};
 
 }  // namespace
 

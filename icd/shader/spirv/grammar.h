@@ -25,6 +25,7 @@ enum class SpirvEnum : uint8_t {
   ExecutionMode,
   ExecutionModel,
   ExtInst,
+  ImageOperands,
   StorageClass
 };
 std::string spirv_enum_name(SpirvEnum kind, uint32_t value);  // "Capability 4711" if it has no name

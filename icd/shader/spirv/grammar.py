@@ -13,7 +13,8 @@ LETTERS = {
     'ImageOperands': 'x', 'MemoryAccess': 'm', 'Decoration': 'e', 'ExecutionMode': 'e', 'LoopControl': 'e',
     'PairIdRefIdRef': 'p', 'PairLiteralIntegerIdRef': 'P', 'PairIdRefLiteralInteger': 'q',
 }  # every other kind is one literal word
-NAMED = ['Capability', 'BuiltIn', 'StorageClass', 'Dim', 'ExecutionMode', 'Decoration', 'ExecutionModel']
+NAMED = ['Capability', 'BuiltIn', 'StorageClass', 'Dim', 'ExecutionMode', 'Decoration', 'ExecutionModel',
+         'ImageOperands']
 
 
 def signature(instruction):
@@ -37,7 +38,7 @@ def main():
     for kind in core['operand_kinds']:
         if kind['kind'] in NAMED:
             for value in reversed(kind['enumerants']):
-                names[(kind['kind'], int(value['value']))] = value['enumerant']
+                names[(kind['kind'], int(str(value['value']), 0))] = value['enumerant']
     for (kind, value), name in sorted(names.items()):
         lines.append(f'SPIRV_NAME({kind}, {value}, "{name}")')
     with open(output_path, 'w', encoding='utf-8') as file:

@@ -82,6 +82,11 @@ Type Lowering::resolve(uint32_t id) {
   return t;
 }
 
+spv::Dim Lowering::dimension(uint32_t image) {
+  const Type& of = type_of(image);
+  return static_cast<spv::Dim>(m_.definition(of.kind == Kind::sampled_image ? of.element : of.id)[3]);
+}
+
 Kind Lowering::scalar_kind(const Type& of) {
   if (of.is_scalar()) return of.kind;
   return of.kind == Kind::vector ? type(of.element).kind : Kind::none;

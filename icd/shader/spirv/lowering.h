@@ -2,6 +2,7 @@
 // Errors stick: the first one is kept, what follows works on registers that exist, and lower_shader returns the error.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <deque>
 #include <memory>
@@ -135,6 +136,7 @@ class Lowering {
   const Type& type(uint32_t id);
   Type resolve(uint32_t id);
   const Type& type_of(uint32_t id) { return type(m_.ids[id].type); }
+  spv::Dim dimension(uint32_t image);  // of a value that is an image
   // The scalars' type and their number; kind none if it is no scalar or vector.
   Kind scalar_kind(const Type& type);
   // Type of the element `index` of a composite and the index of its first scalar; fails if there is none.
@@ -244,7 +246,18 @@ class Lowering {
   void lower_matrix_function(const SpirvInst& inst);
   void lower_parts(const SpirvInst& inst);  // Modf, Frexp and their Struct forms
   bool lower_image(const SpirvInst& inst);
+  // Ids, 0: not given; offsets are 2 or 8 registers.
+  struct ImageOperands {
+    uint32_t lod = 0, dx = 0, dy = 0;  // lod: or the bias
+    std::span<const Reg> offsets;
+  };
+  ImageOperands read_image_operands(const SpirvInst& inst, uint32_t at, uint32_t allowed);
+  const Value* image_value(uint32_t id);  // fails if it is no image
   void lower_sample(const SpirvInst& inst);
+  void lower_fetch(const SpirvInst& inst);
+  void lower_image_write(const SpirvInst& inst);
+  std::array<Reg, 2> texel_coordinate(uint32_t image, uint32_t id);
+  void lower_image_query(const SpirvInst& inst);
   Reg gradient_lod(const Value& image, std::span<const Reg> dx, std::span<const Reg> dy);
   std::span<const Reg> emit_image(Opcode op, const Value& image, std::span<const Reg> operands);
 

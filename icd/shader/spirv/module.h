@@ -3,6 +3,7 @@
 // Module".
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -100,6 +101,9 @@ class SpirvModule {
   spv::Op op(uint32_t id) const { return definition(id).op; }
   std::optional<uint32_t> decoration(uint32_t id, uint32_t member, spv::Decoration decoration) const;
   bool has(uint32_t id, spv::Decoration which) const { return decoration(id, kWhole, which).has_value(); }
+  bool declares(spv::Capability capability) const {
+    return std::find(capabilities.begin(), capabilities.end(), capability) != capabilities.end();
+  }
   const SpirvFunction* function(uint32_t id) const;
   std::string name(uint32_t id) const;  // `%12 "color"`
   // "OpFAdd %12 "sum" at word 345 (shader.frag:12): <what>"
@@ -112,6 +116,7 @@ class SpirvModule {
   uint32_t functions_start = 0;  // word of the first one
   std::vector<SpirvEntryPoint> entry_points;
   std::vector<Mode> modes;
+  std::vector<spv::Capability> capabilities;
   std::vector<uint32_t> globals;  // words of constants, undefs and variables outside functions, in order
   std::vector<std::pair<uint32_t, uint32_t>> names;  // id, word of OpName
 };

@@ -21,6 +21,10 @@ constexpr spv::Capability kCapabilities[] = {
     spv::Capability::Matrix,
     spv::Capability::Shader,
     spv::Capability::ImageQuery,
+    spv::Capability::ImageGatherExtended,
+    spv::Capability::StorageImageReadWithoutFormat,
+    spv::Capability::StorageImageWriteWithoutFormat,
+    spv::Capability::StorageImageArrayDynamicIndexing,
     spv::Capability::DerivativeControl,
     spv::Capability::UniformBufferArrayDynamicIndexing,
     spv::Capability::SampledImageArrayDynamicIndexing,
@@ -151,7 +155,8 @@ class Parser {
         m_.names.emplace_back(inst[1], inst.word);
         return {};
       case spv::Op::OpCapability:
-        if (contains(kCapabilities, static_cast<spv::Capability>(inst[1]))) return {};
+        m_.capabilities.push_back(static_cast<spv::Capability>(inst[1]));
+        if (contains(kCapabilities, m_.capabilities.back())) return {};
         return error(inst, "capability " + spirv_enum_name(SpirvEnum::Capability, inst[1]) + " is not supported");
       case spv::Op::OpExtension: {
         const std::string_view name = spirv_string(inst.words + 1, inst.count - 1);

@@ -99,7 +99,10 @@ TEST(SpirvRefuse, WhatIsNotSupportedByName) {
   EXPECT_REFUSED("16-bit integers", a.add(a.globals, Op::OpTypeInt, {20, 16, 0}));
   EXPECT_REFUSED("Workgroup", a.add(a.globals, Op::OpTypePointer, {20, 4, kUint}));
   EXPECT_REFUSED("Cube", a.add(a.globals, Op::OpTypeImage, {20, kFloat, 3, 0, 0, 0, 1, 0}));
-  EXPECT_REFUSED("storage images", a.add(a.globals, Op::OpTypeImage, {20, kFloat, 1, 0, 0, 0, 2, 1}));
+  EXPECT_REFUSED("SubpassData", a.add(a.globals, Op::OpTypeImage, {20, kFloat, 6, 0, 0, 0, 2, 0}));
+  EXPECT_REFUSED("arrayed images", a.add(a.globals, Op::OpTypeImage, {20, kFloat, 1, 0, 1, 0, 2, 1}));
+  EXPECT_REFUSED("multisampled images", a.add(a.globals, Op::OpTypeImage, {20, kFloat, 1, 0, 0, 1, 2, 1}));
+  EXPECT_REFUSED("OpImageSparseRead", a.add(a.body, Op::OpImageSparseRead, {kFloat, 20, kOne, kOne}));
   EXPECT_REFUSED("OpControlBarrier", a.add(a.body, Op::OpControlBarrier, {kOne, kOne, kOne}));
   EXPECT_REFUSED("extension SPV_X", a.add(a.head, Op::OpExtension, {0x5F565053, 0x58}));
   EXPECT_REFUSED("instruction set OpenCL", a.add(a.head, Op::OpExtInstImport, {20, 0x6E65704F, 0x4C43}));
@@ -114,6 +117,61 @@ TEST(SpirvRefuse, WhatIsNotSupportedByName) {
     a.add(a.head, Op::OpCapability, {1});
     a.add(a.head, Op::OpEntryPoint, {5, kMain, 0x6E69616D, 0, 22});
   });
+}
+
+// A sampled image, and one instruction that uses it.
+void sample_with(Assembler& a, Op op, std::initializer_list<uint32_t> operands) {
+  enum : uint32_t { kImage = 20, kSampled, kPointer, kVariable, kFloat2, kFloat4, kZero, kCoordinate, kInt2, kOffset };
+  a.add(a.annotations, Op::OpDecorate, {kVariable, 34, 0});
+  a.add(a.annotations, Op::OpDecorate, {kVariable, 33, 0});
+  a.add(a.globals, Op::OpTypeImage, {kImage, kFloat, 1, 0, 0, 0, 1, 0});
+  a.add(a.globals, Op::OpTypeSampledImage, {kSampled, kImage});
+  a.add(a.globals, Op::OpTypePointer, {kPointer, 0, kSampled});
+  a.add(a.globals, Op::OpVariable, {kPointer, kVariable, 0});
+  a.add(a.globals, Op::OpTypeVector, {kFloat2, kFloat, 2});
+  a.add(a.globals, Op::OpTypeVector, {kFloat4, kFloat, 4});
+  a.add(a.globals, Op::OpConstant, {kFloat, kZero, 0});
+  a.add(a.globals, Op::OpConstantComposite, {kFloat2, kCoordinate, kZero, kZero});
+  a.add(a.globals, Op::OpTypeVector, {kInt2, kUint, 2});
+  a.add(a.globals, Op::OpConstantComposite, {kInt2, kOffset, kOne, kOne});
+  a.add(a.body, Op::OpLoad, {kSampled, 40, kVariable});
+  std::vector<uint32_t> words{kFloat4, 41, 40, kCoordinate};
+  words.insert(words.end(), operands);
+  a.body.push_back(static_cast<uint32_t>(op) | static_cast<uint32_t>(words.size() + 1) << 16);
+  a.body.insert(a.body.end(), words.begin(), words.end());
+}
+
+TEST(SpirvRefuse, ImageOperands) {
+  constexpr uint32_t kZero = 26, kOffset = 29;
+  const std::vector<BindingSlot> slots = {{0, 0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_ALL, 0, 1}};
+  const auto outcome_with = [&](Op op, std::initializer_list<uint32_t> operands, bool extended = false) {
+    Assembler a;
+    if (extended) a.add(a.head, Op::OpCapability, {static_cast<uint32_t>(spv::Capability::ImageGatherExtended)});
+    sample_with(a, op, operands);
+    const Result<std::shared_ptr<const SpirvModule>> module = parse_spirv(a.words());
+    if (!module) return module.error().message;
+    const Result<Code> code = make_compute_code({*module, "main", {}}, {slots, 0});
+    return code.ok() ? verify(*code) : code.error().message;
+  };
+  const auto expect = [](const std::string& text, const char* needle) {
+    EXPECT_NE(text.find(needle), std::string::npos) << needle << ": " << text;
+  };
+  const Op sample = Op::OpImageSampleExplicitLod, gather = Op::OpImageGather;
+  EXPECT_EQ(outcome_with(sample, {2, kZero}), "");
+  EXPECT_EQ(outcome_with(sample, {2 | 8, kZero, kOffset}), "");
+  EXPECT_EQ(outcome_with(gather, {kOne, 16, kOffset}, true), "");
+  expect(outcome_with(gather, {kOne, 16, kOffset}), "ImageGatherExtended");
+  expect(outcome_with(sample, {0}), "neither Lod nor Grad");
+  expect(outcome_with(sample, {1, kZero}), "operand Bias is not supported");
+  expect(outcome_with(sample, {2 | 64, kZero, kOne}), "operand Sample is not supported");
+  expect(outcome_with(sample, {2 | 128, kZero, kZero}), "operand MinLod is not supported");
+  expect(outcome_with(sample, {2 | 4, kZero, kZero, kZero}), "contradict");
+  expect(outcome_with(sample, {2 | 8, kZero}), "not as many");
+  expect(outcome_with(sample, {2 | 8, kZero, kZero}), "number of components");
+  expect(outcome_with(Op::OpImageSampleProjExplicitLod, {2, kZero}), "too few components");
+  expect(outcome_with(Op::OpImageFetch, {}), "wrong type");
+  expect(outcome_with(Op::OpImageQueryLod, {}), "fragment shaders");
+  expect(outcome_with(Op::OpImageSparseSampleExplicitLod, {2, kZero}), "not supported");
 }
 
 TEST(SpirvRefuse, MessagesNameInstructionWordNameAndLine) {
