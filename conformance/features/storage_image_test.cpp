@@ -10,8 +10,8 @@
 #include "harness/descriptors.h"
 #include "harness/devices.h"
 #include "harness/graphics.h"
+#include "harness/storage_formats.h"
 #include "harness/texture.h"
-#include "oracle/formats.h"
 #include "shaders/position_color.vert.h"
 #include "shaders/storage_image.comp.h"
 #include "shaders/storage_image.frag.h"
@@ -21,36 +21,7 @@ namespace {
 
 using oracle::Number;
 
-struct StorageFormat {
-  VkFormat vk;
-  oracle::Format format;
-};
-constexpr StorageFormat kFormats[] = {{VK_FORMAT_R8G8B8A8_UNORM, {Number::kUnorm, 8, 4}},
-                                      {VK_FORMAT_R8G8B8A8_SNORM, {Number::kSnorm, 8, 4}},
-                                      {VK_FORMAT_R8G8B8A8_UINT, {Number::kUint, 8, 4}},
-                                      {VK_FORMAT_R8G8B8A8_SINT, {Number::kSint, 8, 4}},
-                                      {VK_FORMAT_R16G16B16A16_UINT, {Number::kUint, 16, 4}},
-                                      {VK_FORMAT_R16G16B16A16_SINT, {Number::kSint, 16, 4}},
-                                      {VK_FORMAT_R16G16B16A16_SFLOAT, {Number::kFloat, 16, 4}},
-                                      {VK_FORMAT_R32_UINT, {Number::kUint, 32, 1}},
-                                      {VK_FORMAT_R32_SINT, {Number::kSint, 32, 1}},
-                                      {VK_FORMAT_R32_SFLOAT, {Number::kFloat, 32, 1}},
-                                      {VK_FORMAT_R32G32_UINT, {Number::kUint, 32, 2}},
-                                      {VK_FORMAT_R32G32_SINT, {Number::kSint, 32, 2}},
-                                      {VK_FORMAT_R32G32_SFLOAT, {Number::kFloat, 32, 2}},
-                                      {VK_FORMAT_R32G32B32A32_UINT, {Number::kUint, 32, 4}},
-                                      {VK_FORMAT_R32G32B32A32_SINT, {Number::kSint, 32, 4}},
-                                      {VK_FORMAT_R32G32B32A32_SFLOAT, {Number::kFloat, 32, 4}}};
-
 constexpr uint32_t kWidth = 37, kHeight = 11, kGroupsX = 6, kGroupsY = 3;
-
-Bytes random_texels(std::mt19937& random, const oracle::Format& format) {
-  Bytes bytes(kWidth * kHeight * format.bytes());
-  for (std::byte& b : bytes) b = std::byte(random());
-  if (format.kind != Number::kFloat) return bytes;
-  for (size_t i = format.bits / 8 - 1; i < bytes.size(); i += format.bits / 8) bytes[i] &= std::byte{0xBB};  // finite
-  return bytes;
-}
 
 DescriptorSlot image_slot(uint32_t binding, const samples::Image& image) {
   DescriptorSlot slot = {binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
@@ -88,11 +59,11 @@ std::vector<uint32_t> run(const samples::Image& from, const samples::Image& to, 
 
 TEST(StorageImage, EveryRequiredFormatIsReadAndWritten) {
   std::mt19937 random(41);
-  for (const auto& [vk, format] : kFormats) {
+  for (const auto& [vk, format] : kStorageFormats) {
     VkFormatProperties properties;
     vkGetPhysicalDeviceFormatProperties(subject().physical_device(), vk, &properties);
     ASSERT_NE(properties.optimalTilingFeatures & VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT, 0u) << vk;
-    const Bytes texels = random_texels(random, format);
+    const Bytes texels = random_texels(random, format, kWidth * kHeight);
     const samples::Image from = storage_image(subject(), {kWidth, kHeight}, vk, texels);
     const samples::Image to = storage_image(subject(), {kWidth, kHeight}, vk, Bytes(texels.size()));
     const std::vector<uint32_t> read = run(from, to, format.integer() ? 1 : 0);

@@ -12,9 +12,9 @@ VKAPI_ATTR void VKAPI_CALL vkDestroyBuffer(VkDevice, VkBuffer buffer, const VkAl
   destroy(Buffer::from(buffer));
 }
 
-VKAPI_ATTR VkResult VKAPI_CALL vkCreateBufferView(VkDevice, const VkBufferViewCreateInfo* info,
-                                                  const VkAllocationCallbacks*, VkBufferView*) {
-  return create_buffer_view(*info);
+VKAPI_ATTR VkResult VKAPI_CALL vkCreateBufferView(VkDevice device, const VkBufferViewCreateInfo* info,
+                                                  const VkAllocationCallbacks* callbacks, VkBufferView* view) {
+  return create_buffer_view(*Device::from(device), *info, callbacks, view);
 }
 
 VKAPI_ATTR void VKAPI_CALL vkDestroyBufferView(VkDevice, VkBufferView view, const VkAllocationCallbacks*) {

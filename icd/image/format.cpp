@@ -48,7 +48,9 @@ VkFormatProperties format_properties(VkFormat format) {
   properties.optimalTilingFeatures = image;
   // All images are row-major, so linear ones can do the same. Depth is left out: nobody asks for it.
   if (color) properties.linearTilingFeatures = image;
-  properties.bufferFeatures = add(kVertex, VK_FORMAT_FEATURE_VERTEX_BUFFER_BIT);
+  properties.bufferFeatures = add(kVertex, VK_FORMAT_FEATURE_VERTEX_BUFFER_BIT) |
+                              add(kTexelBuffer, VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT) |
+                              add(kStorageTexelBuffer, VK_FORMAT_FEATURE_STORAGE_TEXEL_BUFFER_BIT);
   return properties;
 }
 

@@ -26,9 +26,11 @@ enum FormatFeature : uint32_t {
   kFilterable = 4,   // linear filters
   kColorTarget = 8,  // colour attachment
   kBlendable = 16,
-  kDepthTarget = 32,  // depth attachment
-  kVertex = 64,       // vertex buffer
-  kStorage = 128,     // storage image
+  kDepthTarget = 32,          // depth attachment
+  kVertex = 64,               // vertex buffer
+  kStorage = 128,             // storage image
+  kTexelBuffer = 256,         // uniform texel buffer
+  kStorageTexelBuffer = 512,  // and a storage one
 };
 
 struct FormatInfo {

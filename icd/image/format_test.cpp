@@ -101,11 +101,11 @@ TEST(Format, FirstFormatsAreOffered) {
   EXPECT_EQ(format_properties(VK_FORMAT_D32_SFLOAT).optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT, 0u);
   for (VkFormat format :
        {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_R32G32B32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT}) {
-    EXPECT_EQ(format_properties(format).bufferFeatures, VkFormatFeatureFlags{VK_FORMAT_FEATURE_VERTEX_BUFFER_BIT});
+    EXPECT_NE(format_properties(format).bufferFeatures & VK_FORMAT_FEATURE_VERTEX_BUFFER_BIT, 0u);
   }
 }
 
-// "Required Format Support" of Vulkan 1.0 for storage images.
+// "Required Format Support" of Vulkan 1.0 for storage images and storage texel buffers.
 TEST(Format, StorageFormatsOfTheSpecificationAreOffered) {
   constexpr VkFormat kRequired[] = {
       VK_FORMAT_R8G8B8A8_UNORM,      VK_FORMAT_R8G8B8A8_SNORM,    VK_FORMAT_R8G8B8A8_UINT,
@@ -115,7 +115,12 @@ TEST(Format, StorageFormatsOfTheSpecificationAreOffered) {
       VK_FORMAT_R32G32_SFLOAT,       VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R32G32B32A32_SINT,
       VK_FORMAT_R32G32B32A32_SFLOAT};
   constexpr VkFormatFeatureFlags storage = VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;
-  for (VkFormat format : kRequired) EXPECT_EQ(format_properties(format).optimalTilingFeatures & storage, storage);
+  constexpr VkFormatFeatureFlags texels =
+      VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT | VK_FORMAT_FEATURE_STORAGE_TEXEL_BUFFER_BIT;
+  for (VkFormat format : kRequired) {
+    EXPECT_EQ(format_properties(format).optimalTilingFeatures & storage, storage);
+    EXPECT_EQ(format_properties(format).bufferFeatures & texels, texels);
+  }
 }
 
 }  // namespace

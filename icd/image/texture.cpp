@@ -100,6 +100,15 @@ Result<ImageLayout> make_layout(VkFormat format, const ImageExtent& extent) {
   return layout;
 }
 
+TextureView make_texel_buffer(const FormatInfo& format, std::byte* data, uint64_t bytes) {
+  TextureView view;
+  view.format = &format;
+  view.level_count = view.layer_count = 1;
+  const uint64_t elements = std::min<uint64_t>(bytes / format.texel_size, kMaxTexelBufferElements);
+  view.levels[0] = {data, static_cast<int32_t>(elements), 1, 0};
+  return view;
+}
+
 Result<TextureView> make_view(const ImageLayout& layout, std::byte* image, VkFormat format,
                               const VkComponentMapping& mapping, const VkImageSubresourceRange& range) {
   TextureView view;

@@ -90,6 +90,10 @@ struct TextureView {
   bool identity_swizzle = true;
 };
 
+// A row of texels in a buffer; at most kMaxTexelBufferElements of those that fit `bytes`.
+inline constexpr uint32_t kMaxTexelBufferElements = 1u << 26;
+TextureView make_texel_buffer(const FormatInfo& format, std::byte* data, uint64_t bytes);
+
 // `image` is the image's first byte. The range may use VK_REMAINING_MIP_LEVELS and VK_REMAINING_ARRAY_LAYERS;
 // VK_ERROR_UNKNOWN if it does not lie in the image or the view's format has another texel size.
 Result<TextureView> make_view(const ImageLayout& layout, std::byte* image, VkFormat format,

@@ -43,9 +43,17 @@ VkResult bind_memory(Buffer& buffer, DeviceMemory& memory, uint64_t offset) {
   return VK_SUCCESS;
 }
 
-VkResult create_buffer_view(const VkBufferViewCreateInfo& info) {
-  log_error("vkCreateBufferView: format %d has no texel buffers", info.format);
-  return VK_ERROR_UNKNOWN;
+VkResult create_buffer_view(DeviceContext& device, const VkBufferViewCreateInfo& info,
+                            const VkAllocationCallbacks* callbacks, VkBufferView* handle) {
+  const FormatInfo* format = find_format(info.format);
+  if (format == nullptr || !format->has(kTexelBuffer)) {
+    log_error("vkCreateBufferView: format %d has no texel buffers", info.format);
+    return VK_ERROR_UNKNOWN;
+  }
+  const BufferMemory bytes = Buffer::from(info.buffer)->bytes(info.offset, info.range);
+  auto view = make_object<BufferView>(device.object_memory(callbacks), VK_SYSTEM_ALLOCATION_SCOPE_OBJECT);
+  view->texture = make_texel_buffer(*format, bytes.data, bytes.size);
+  return publish(std::move(view), handle);
 }
 
 }  // namespace lapilli

@@ -22,10 +22,13 @@ VkResult create_buffer(DeviceContext& device, const VkBufferCreateInfo& info, co
 VkMemoryRequirements memory_requirements(const Buffer& buffer);
 VkResult bind_memory(Buffer& buffer, DeviceMemory& memory, uint64_t offset);
 
-// A view of texels in a buffer. No format offers texel buffers, so that there is none yet.
+// Texels in a buffer.
 struct BufferView : Handle<BufferView, VkBufferView> {
   using Handle::Handle;
+
+  TextureView texture;
 };
-VkResult create_buffer_view(const VkBufferViewCreateInfo& info);
+VkResult create_buffer_view(DeviceContext& device, const VkBufferViewCreateInfo& info,
+                            const VkAllocationCallbacks* callbacks, VkBufferView* handle);
 
 }  // namespace lapilli

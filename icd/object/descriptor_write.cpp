@@ -50,8 +50,14 @@ void write_one(Descriptor& descriptor, const VkWriteDescriptorSet& write, uint32
     case VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT:
       descriptor.texture = texture_of(write.pImageInfo[i].imageView);
       break;
+    case VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER:
+    case VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER: {
+      const BufferView* view = BufferView::from(write.pTexelBufferView[i]);
+      descriptor.texture = view != nullptr ? &view->texture : nullptr;
+      break;
+    }
     default:
-      break;  // texel buffers: there are no buffer views
+      break;
   }
 }
 

@@ -19,7 +19,7 @@ void set_image_limits(VkPhysicalDeviceLimits& limits) {
   limits.maxImageDimension3D = kMaxImageDimension3D;
   limits.maxImageDimensionCube = kMaxImageDimension2D;
   limits.maxImageArrayLayers = kMaxImageLayers;
-  limits.maxTexelBufferElements = 65536;  // the least there may be: no texel buffers yet
+  limits.maxTexelBufferElements = kMaxTexelBufferElements;
   limits.bufferImageGranularity = 1;
   limits.sparseAddressSpaceSize = 0;
   limits.maxSamplerAllocationCount = kMaxSamplers;

@@ -25,7 +25,7 @@ bool is_constant(spv::Op op) { return op >= spv::Op::OpConstantTrue && op <= spv
 Result<void> check_image(const SpirvModule& module, const SpirvInst& inst) {
   // Sampled type, Dim, Depth, Arrayed, MS, Sampled, Format.
   const spv::Op sampled_type = module.op(inst[2]);
-  if (static_cast<spv::Dim>(inst[3]) != spv::Dim::Dim2D)
+  if (static_cast<spv::Dim>(inst[3]) != spv::Dim::Dim2D && static_cast<spv::Dim>(inst[3]) != spv::Dim::Buffer)
     return module.error(inst.word,
                         "images of dimension " + spirv_enum_name(SpirvEnum::Dim, inst[3]) + " are not supported");
   if (inst[5] != 0) return module.error(inst.word, "arrayed images are not supported");

@@ -22,6 +22,8 @@ constexpr spv::Capability kCapabilities[] = {
     spv::Capability::Shader,
     spv::Capability::ImageQuery,
     spv::Capability::ImageGatherExtended,
+    spv::Capability::SampledBuffer,
+    spv::Capability::ImageBuffer,
     spv::Capability::StorageImageReadWithoutFormat,
     spv::Capability::StorageImageWriteWithoutFormat,
     spv::Capability::StorageImageArrayDynamicIndexing,
