@@ -1,4 +1,4 @@
-// Storage images: reads and writes in each format that Vulkan 1.0 requires, texels outside, writes of fragments.
+// Storage images: reads and writes in each format, texels outside, writes of fragments.
 // Specification: "Storage Image", "Image Operations"; "Robust Buffer Access" for what lies outside.
 #include <gtest/gtest.h>
 
@@ -57,7 +57,7 @@ std::vector<uint32_t> run(const samples::Image& from, const samples::Image& to, 
   return words;
 }
 
-TEST(StorageImage, EveryRequiredFormatIsReadAndWritten) {
+TEST(StorageImage, EveryFormatIsReadAndWritten) {
   std::mt19937 random(41);
   for (const auto& [vk, format] : kStorageFormats) {
     VkFormatProperties properties;
@@ -84,10 +84,9 @@ TEST(StorageImage, EveryRequiredFormatIsReadAndWritten) {
         const double value = format.integer() ? double(got[c]) : double(std::bit_cast<float>(got[c]));
         ASSERT_NEAR(value, want[c], format.kind == Number::kUnorm || format.kind == Number::kSnorm ? 1e-7 : 0) << vk;
         if (c >= format.components) continue;
-        uint32_t code = 0;
-        std::memcpy(&code, &written[texel * format.bytes() + c * format.bits / 8], format.bits / 8);
+        const uint32_t code = format.code(&written[texel * format.bytes()], unsigned(c));
         bool tie = false;
-        const uint32_t expected = oracle::encode(format, want[3 - c], &tie);
+        const uint32_t expected = oracle::encode(format, unsigned(c), want[3 - c], &tie);
         ASSERT_TRUE(tie || code == expected) << vk << " component " << c << ": " << code << ", not " << expected;
       }
     }

@@ -1,4 +1,4 @@
-// Uniform and storage texel buffers: reads and writes in each format that Vulkan 1.0 requires, views of a part of a
+// Uniform and storage texel buffers: reads and writes in each format, views of a part of a
 // buffer, indices outside. Specification: "Buffer Views", "Image Operations", "Robust Buffer Access".
 #include <gtest/gtest.h>
 
@@ -79,7 +79,7 @@ std::vector<uint32_t> run(const View& from, const View& to, int kind) {
   return words;
 }
 
-TEST(TexelBuffer, EveryRequiredFormatIsReadAndWritten) {
+TEST(TexelBuffer, EveryFormatIsReadAndWritten) {
   std::mt19937 random(51);
   for (const auto& [vk, format] : kStorageFormats) {
     VkFormatProperties properties;
@@ -105,11 +105,9 @@ TEST(TexelBuffer, EveryRequiredFormatIsReadAndWritten) {
           ASSERT_NEAR(value, want[c], format.kind == Number::kUnorm || format.kind == Number::kSnorm ? 1e-7 : 0)
               << vk << " texel " << texel;
           if (!inside || c >= format.components) continue;
-          uint32_t code = 0;
-          std::memcpy(&code, to.bytes() + kOffset + size_t(texel) * format.bytes() + c * format.bits / 8,
-                      format.bits / 8);
+          const uint32_t code = format.code(to.bytes() + kOffset + size_t(texel) * format.bytes(), unsigned(c));
           bool tie = false;
-          const uint32_t expected = oracle::encode(format, want[3 - c], &tie);
+          const uint32_t expected = oracle::encode(format, unsigned(c), want[3 - c], &tie);
           ASSERT_TRUE(tie || code == expected) << vk << " component " << c << ": " << code << ", not " << expected;
         }
       }

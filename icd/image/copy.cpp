@@ -100,6 +100,14 @@ uint32_t half_bits(float value) {
   return sign | (magnitude < 0x1p-14 ? steps : steps + (static_cast<uint32_t>(exponent + 14) << 10));
 }
 
+// Texel::to_small_float() on one number.
+uint32_t small_float_bits(float value, uint32_t bits) {
+  const uint32_t dropped = 15 - bits;
+  const uint32_t half = half_bits(value < 0.0f ? 0.0f : value) & 0x7FFF;
+  const uint32_t rounded = (half + (1u << (dropped - 1)) - 1 + (half >> dropped & 1)) >> dropped;
+  return std::isfinite(value) ? std::min(rounded, (31u << (bits - 5)) - 1) : rounded;
+}
+
 // One component as the bits of the texel, in the low `bits` bits.
 uint32_t pack_component(const ComponentLayout& component, uint32_t bits_of_value) {
   const float value = std::bit_cast<float>(bits_of_value);
@@ -118,6 +126,8 @@ uint32_t pack_component(const ComponentLayout& component, uint32_t bits_of_value
     case ComponentKind::sfloat:
       if (component.bits == 16) return half_bits(value);
       return std::isnan(value) ? 0x7FC00000u : bits_of_value;
+    case ComponentKind::ufloat:
+      return small_float_bits(value, component.bits);
     case ComponentKind::uint:
     case ComponentKind::sint:
       return bits_of_value;

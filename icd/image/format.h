@@ -10,7 +10,7 @@
 
 namespace lapilli {
 
-enum class ComponentKind : uint8_t { none, unorm, snorm, sfloat, uint, sint };
+enum class ComponentKind : uint8_t { none, unorm, snorm, sfloat, ufloat, uint, sint };
 
 struct ComponentLayout {
   ComponentKind kind = ComponentKind::none;

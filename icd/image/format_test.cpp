@@ -19,9 +19,12 @@ struct NameReader {
 
   explicit NameReader(std::string_view name) {
     const size_t underscore = name.find('_');
-    const std::string_view suffix = name.substr(underscore + 1);
+    std::string_view suffix = name.substr(underscore + 1);
+    const bool packed = suffix.ends_with("_PACK32");  // from the highest bit on
+    if (packed) suffix.remove_suffix(7);
     const ComponentKind kind = suffix == "UNORM"    ? ComponentKind::unorm
                                : suffix == "SNORM"  ? ComponentKind::snorm
+                               : suffix == "UFLOAT" ? ComponentKind::ufloat
                                : suffix == "SFLOAT" ? ComponentKind::sfloat
                                : suffix == "UINT"   ? ComponentKind::uint
                                : suffix == "SINT"   ? ComponentKind::sint
@@ -34,7 +37,7 @@ struct NameReader {
         width = static_cast<uint8_t>(width * 10 + (name[i++] - '0'));
       }
       const size_t slot = letter == 'D' ? 0 : std::string_view("RGBA").find(letter);
-      components.at(slot) = {kind, static_cast<uint8_t>(bits), width};
+      components.at(slot) = {kind, static_cast<uint8_t>(packed ? 32 - bits - width : bits), width};
       bits += width;
       aspects |= letter == 'D' ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
     }
@@ -105,15 +108,34 @@ TEST(Format, FirstFormatsAreOffered) {
   }
 }
 
-// "Required Format Support" of Vulkan 1.0 for storage images and storage texel buffers.
+// "Required Format Support" of Vulkan 1.0 for storage images and storage texel buffers, and some of
+// shaderStorageImageExtendedFormats.
 TEST(Format, StorageFormatsOfTheSpecificationAreOffered) {
-  constexpr VkFormat kRequired[] = {
-      VK_FORMAT_R8G8B8A8_UNORM,      VK_FORMAT_R8G8B8A8_SNORM,    VK_FORMAT_R8G8B8A8_UINT,
-      VK_FORMAT_R8G8B8A8_SINT,       VK_FORMAT_R16G16B16A16_UINT, VK_FORMAT_R16G16B16A16_SINT,
-      VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R32_UINT,          VK_FORMAT_R32_SINT,
-      VK_FORMAT_R32_SFLOAT,          VK_FORMAT_R32G32_UINT,       VK_FORMAT_R32G32_SINT,
-      VK_FORMAT_R32G32_SFLOAT,       VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R32G32B32A32_SINT,
-      VK_FORMAT_R32G32B32A32_SFLOAT};
+  constexpr VkFormat kRequired[] = {VK_FORMAT_R8_UNORM,
+                                    VK_FORMAT_R16_SFLOAT,
+                                    VK_FORMAT_R8G8_SINT,
+                                    VK_FORMAT_R16G16_SNORM,
+                                    VK_FORMAT_R16G16B16A16_UNORM,
+                                    VK_FORMAT_A2B10G10R10_UINT_PACK32,
+                                    VK_FORMAT_A2B10G10R10_UNORM_PACK32,
+                                    VK_FORMAT_B10G11R11_UFLOAT_PACK32,
+
+                                    VK_FORMAT_R8G8B8A8_UNORM,
+                                    VK_FORMAT_R8G8B8A8_SNORM,
+                                    VK_FORMAT_R8G8B8A8_UINT,
+                                    VK_FORMAT_R8G8B8A8_SINT,
+                                    VK_FORMAT_R16G16B16A16_UINT,
+                                    VK_FORMAT_R16G16B16A16_SINT,
+                                    VK_FORMAT_R16G16B16A16_SFLOAT,
+                                    VK_FORMAT_R32_UINT,
+                                    VK_FORMAT_R32_SINT,
+                                    VK_FORMAT_R32_SFLOAT,
+                                    VK_FORMAT_R32G32_UINT,
+                                    VK_FORMAT_R32G32_SINT,
+                                    VK_FORMAT_R32G32_SFLOAT,
+                                    VK_FORMAT_R32G32B32A32_UINT,
+                                    VK_FORMAT_R32G32B32A32_SINT,
+                                    VK_FORMAT_R32G32B32A32_SFLOAT};
   constexpr VkFormatFeatureFlags storage = VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;
   constexpr VkFormatFeatureFlags texels =
       VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT | VK_FORMAT_FEATURE_STORAGE_TEXEL_BUFFER_BIT;

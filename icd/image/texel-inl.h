@@ -38,6 +38,31 @@ HWY_API I float_to_snorm(F value, float largest) {
   return nearest_in_range(min(max(number, broadcast(-1.0f)), broadcast(1.0f)) * broadcast(largest));
 }
 
+// An unsigned float of 5 bits of exponent and 6 or 5 of mantissa: the upper bits of a half, rounded from it to nearest
+// even. What is negative becomes 0, what is finite stays finite.
+template <int kBits>
+HWY_API U to_small_float(F value) {
+  constexpr int dropped = 15 - kBits;
+  const U half = to_half(select(lt(value, zero_f()), zero_f(), value)) & broadcast(0x7FFFu);
+  const U odd = shift_right<dropped>(half) & broadcast(1u);
+  const U rounded = shift_right<dropped>(half + broadcast((1u << (dropped - 1)) - 1) + odd);
+  const U largest = broadcast((31u << (kBits - 5)) - 1);
+  return select(is_finite(value), min(rounded, largest), rounded);
+}
+
+template <size_t kBytes>
+HWY_API U gather_bytes(const std::byte* base, U byte_offsets, M m) {
+  alignas(64) uint32_t lanes[kVectorLanes];
+  store(byte_offsets, lanes);
+  const uint64_t live = bits_of(m);
+  for (int lane = 0; lane < kVectorLanes; ++lane) {
+    const uint32_t offset = lanes[lane];
+    lanes[lane] = 0;
+    if ((live >> lane & 1) != 0) __builtin_memcpy(&lanes[lane], base + offset, kBytes);
+  }
+  return load<U>(lanes);
+}
+
 // The same for a whole texel, from byte 0 on: to integers, of which the packing drops what is below 0.
 HWY_API I float_to_unorm8(F value) {
   return nearest_in_range(min(value * broadcast(255.0f), broadcast(255.0f)));  // a NaN becomes INT_MIN
@@ -56,8 +81,10 @@ HWY_API U pack_near_unorm8(F c0, F c1, F c2, F c3) {
 template <size_t kFormat>
 struct Texel {
   static constexpr const FormatInfo& kInfo = kFormats[kFormat];
-  static constexpr size_t kWords = kInfo.texel_size / 4;
-  static_assert(kInfo.texel_size % 4 == 0 && kWords <= 4, "texels are whole 32-bit words");
+  static constexpr bool kIsSmall = kInfo.texel_size < 4;  // the lowest bytes of a word
+  static constexpr size_t kWords = kIsSmall ? 1 : kInfo.texel_size / 4;
+  static_assert((kIsSmall || kInfo.texel_size % 4 == 0) && kWords <= 4,
+                "texels are whole 32-bit words or less than one");
 
   static constexpr ComponentLayout component(int c) { return kInfo.components[static_cast<size_t>(c)]; }
   static constexpr size_t word_of(int c) { return component(c).first_bit / 32; }
@@ -106,6 +133,8 @@ struct Texel {
       return layout.kind == ComponentKind::snorm ? to_float(code) : as_f(code);
     } else if constexpr (layout.kind == ComponentKind::sfloat && layout.bits == 16) {
       return from_half(field<c>(words));
+    } else if constexpr (layout.kind == ComponentKind::ufloat) {
+      return from_half(shift_left<15 - layout.bits>(field<c>(words)));
     } else {
       static_assert(layout.kind != ComponentKind::sfloat || layout.bits == 32);
       return as_f(field<c>(words));
@@ -158,6 +187,7 @@ struct Texel {
       if constexpr (layout.kind == ComponentKind::snorm) bits = as_u(float_to_snorm(value, largest(c)));
       if constexpr (layout.kind == ComponentKind::sfloat && layout.bits == 32) bits = as_u(canonical(value));
       if constexpr (layout.kind == ComponentKind::sfloat && layout.bits == 16) bits = to_half(value);
+      if constexpr (layout.kind == ComponentKind::ufloat) bits = to_small_float<layout.bits>(value);
       if constexpr (layout.bits < 32 && layout.kind != ComponentKind::unorm) bits = bits & broadcast(mask_of_bits(c));
       if constexpr (shift_of(c) != 0) bits = shift_left<shift_of(c)>(bits);
       words[word_of(c)] = words[word_of(c)] | bits;
@@ -179,7 +209,9 @@ struct Texel {
 
   // `base` + byte offsets; 0 where m is not set.
   HWY_API void gather(const std::byte* base, U byte_offsets, M m, U* words) {
-    if constexpr (kWords == 1) {
+    if constexpr (kIsSmall) {
+      words[0] = gather_bytes<kInfo.texel_size>(base, byte_offsets, m);
+    } else if constexpr (kWords == 1) {
       words[0] = gather32(base, byte_offsets, m);
     } else {
       gather_words<kWords>(base, byte_offsets, m, words);

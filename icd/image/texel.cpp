@@ -338,7 +338,8 @@ void store_scattered(std::byte* base, const uint32_t* byte_offsets, uint64_t lan
   for (; lanes != 0; lanes &= lanes - 1) {
     const int lane = std::countr_zero(lanes);
     std::byte* const to = base + byte_offsets[lane];
-    for (size_t w = 0; w < T::kWords; ++w) std::memcpy(to + 4 * w, &words.word[w][lane], 4);
+    constexpr size_t bytes = T::kIsSmall ? T::kInfo.texel_size : 4;
+    for (size_t w = 0; w < T::kWords; ++w) std::memcpy(to + 4 * w, &words.word[w][lane], bytes);
   }
 }
 

@@ -244,9 +244,10 @@ double half_value(uint32_t half) {
 
 // A component's bits in a register, from the format's definition.
 uint32_t decoded(const ComponentLayout& layout, const std::byte* texel) {
-  uint32_t code = 0;
-  std::memcpy(&code, texel + layout.first_bit / 8, layout.bits / 8);
+  uint64_t bytes = 0;
+  std::memcpy(&bytes, texel + layout.first_bit / 8, (layout.first_bit % 8u + layout.bits + 7u) / 8);
   const uint32_t unused = 32u - layout.bits;
+  const uint32_t code = static_cast<uint32_t>(bytes >> layout.first_bit % 8) << unused >> unused;
   const int32_t number = static_cast<int32_t>(code << unused) >> unused;
   const double largest = std::exp2(layout.bits - (layout.kind == ComponentKind::snorm ? 1 : 0)) - 1;
   switch (layout.kind) {
@@ -256,6 +257,10 @@ uint32_t decoded(const ComponentLayout& layout, const std::byte* texel) {
       return bits(static_cast<float>(std::max(number / largest, -1.0)));
     case ComponentKind::sint:
       return static_cast<uint32_t>(number);
+    case ComponentKind::ufloat: {
+      const double value = half_value(code << (15 - layout.bits));
+      return std::isnan(value) ? 0x7FC00000 : bits(static_cast<float>(value));
+    }
     case ComponentKind::sfloat:
       return layout.bits == 16 && (code & 0x7FFF) > 0x7C00 ? 0x7FC00000
              : layout.bits == 16                           ? bits(static_cast<float>(half_value(code)))
@@ -306,6 +311,8 @@ TEST_P(Texels, ScattersWhatGathersRead) {
       std::byte* const texel = &from[source[lane]];
       for (const ComponentLayout& layout : info.components) {  // no NaN, no second code of -1
         if (layout.kind == ComponentKind::sfloat) texel[(layout.first_bit + layout.bits) / 8u - 1] &= std::byte{0xBF};
+        const uint32_t top = layout.first_bit + layout.bits - 1u;
+        if (layout.kind == ComponentKind::ufloat) texel[top / 8] &= ~std::byte(1 << top % 8);
         if (layout.kind == ComponentKind::snorm) texel[layout.first_bit / 8] |= std::byte{1};
       }
       if ((lanes >> lane & 1) != 0) std::memcpy(&expected[target[lane]], texel, info.texel_size);

@@ -66,6 +66,7 @@ VkPhysicalDeviceFeatures device_features() {
   VkPhysicalDeviceFeatures features = {};
   features.robustBufferAccess = VK_TRUE;
   features.shaderImageGatherExtended = VK_TRUE;
+  features.shaderStorageImageExtendedFormats = VK_TRUE;
   features.shaderStorageImageReadWithoutFormat = VK_TRUE;
   features.shaderStorageImageWriteWithoutFormat = VK_TRUE;
   features.shaderSampledImageArrayDynamicIndexing = VK_TRUE;

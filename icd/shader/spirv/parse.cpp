@@ -24,6 +24,7 @@ constexpr spv::Capability kCapabilities[] = {
     spv::Capability::ImageGatherExtended,
     spv::Capability::SampledBuffer,
     spv::Capability::ImageBuffer,
+    spv::Capability::StorageImageExtendedFormats,
     spv::Capability::StorageImageReadWithoutFormat,
     spv::Capability::StorageImageWriteWithoutFormat,
     spv::Capability::StorageImageArrayDynamicIndexing,
