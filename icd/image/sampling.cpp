@@ -53,11 +53,16 @@ constexpr std::array<FormatReaders, sizeof...(kIndices)> make_readers(std::index
 }
 constexpr std::array<FormatReaders, kFormatCount> kReaders = make_readers(std::make_index_sequence<kFormatCount>());
 
+bool mirrors_once(const SamplerState& sampler) {
+  constexpr VkSamplerAddressMode kOnce = VK_SAMPLER_ADDRESS_MODE_MIRROR_CLAMP_TO_EDGE;
+  return sampler.address_u == kOnce || sampler.address_v == kOnce;
+}
+
 // A filter that the format does not offer falls back to the nearest texel.
 LevelFunction level_function(const TextureView& view, const SamplerState& sampler, VkFilter filter, bool plain) {
   const FormatReaders& readers = kReaders[view.format->index];
   const bool nearest = filter == VK_FILTER_NEAREST || !view.format->has(kFilterable);
-  if (!plain || readers.nearest == nullptr) return nearest ? general_nearest : general_linear;
+  if (!plain || readers.nearest == nullptr || mirrors_once(sampler)) return nearest ? general_nearest : general_linear;
   if (nearest) return readers.nearest;
   if (sampler.address_u == sampler.address_v && !sampler.unnormalized) {
     if (sampler.address_u == VK_SAMPLER_ADDRESS_MODE_REPEAT) return readers.linear_repeat;

@@ -56,6 +56,8 @@ HWY_API NearestTap wrap_texel(F index, const Axis& axis) {
       const F unfolded = positive_remainder(index, axis.size + axis.size);
       return {truncate_in_range(min(unfolded, axis.size + axis.last - unfolded)), all_lanes()};
     }
+    case VK_SAMPLER_ADDRESS_MODE_MIRROR_CLAMP_TO_EDGE:
+      return {truncate_in_range(min(max(index, broadcast(-1.0f) - index), axis.last)), all_lanes()};
     case VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER: {
       const F clamped = clamp_or_low(index, zero_f(), axis.last);
       return {truncate_in_range(clamped), eq(clamped, index)};

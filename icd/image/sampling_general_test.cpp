@@ -61,6 +61,12 @@ std::array<Color, 4> footprint(const Texture& texture, const SamplerState& sampl
   return texels;
 }
 
+// With the one of VK_KHR_sampler_mirror_clamp_to_edge.
+VkSamplerAddressMode any_mode(std::mt19937& random) {
+  const size_t mode = random() % (std::size(kModes) + 1);
+  return mode < std::size(kModes) ? kModes[mode] : VK_SAMPLER_ADDRESS_MODE_MIRROR_CLAMP_TO_EDGE;
+}
+
 constexpr VkFormat kFormats[] = {VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R32G32_SFLOAT,
                                  VK_FORMAT_D32_SFLOAT};
 
@@ -68,8 +74,7 @@ struct Round {
   Texture texture;
   SamplerState sampler;
   Round(std::mt19937& random, VkFormat format, VkFilter filter, uint32_t width, uint32_t height)
-      : texture(format, width, height),
-        sampler(sampler_of(filter, kModes[random() % std::size(kModes)], kModes[random() % std::size(kModes)])) {
+      : texture(format, width, height), sampler(sampler_of(filter, any_mode(random), any_mode(random))) {
     texture.fill_random(static_cast<uint32_t>(random()));
     sampler.border = {kOne, kOne, kOne, kOne};
   }

@@ -90,6 +90,8 @@ inline int64_t wrap(VkSamplerAddressMode mode, int64_t i, int64_t size) {
       const int64_t n = modulo(i, 2 * size) - size;
       return size - 1 - (n >= 0 ? n : -(1 + n));
     }
+    case VK_SAMPLER_ADDRESS_MODE_MIRROR_CLAMP_TO_EDGE:
+      return std::clamp<int64_t>(i >= 0 ? i : -(1 + i), 0, size - 1);
     case VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE:
       return std::clamp<int64_t>(i, 0, size - 1);
     default:

@@ -21,6 +21,8 @@ inline constexpr std::array kExtensions = {
     ExtensionInfo{VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_DEBUG_UTILS_SPEC_VERSION, ExtensionLevel::instance},
     ExtensionInfo{VK_KHR_GET_PHYSICAL_DEVICE_PROPERTIES_2_EXTENSION_NAME,
                   VK_KHR_GET_PHYSICAL_DEVICE_PROPERTIES_2_SPEC_VERSION, ExtensionLevel::instance},
+    ExtensionInfo{VK_KHR_SAMPLER_MIRROR_CLAMP_TO_EDGE_EXTENSION_NAME, VK_KHR_SAMPLER_MIRROR_CLAMP_TO_EDGE_SPEC_VERSION,
+                  ExtensionLevel::device},
 };
 
 // Those that an application enabled.
