@@ -3,12 +3,14 @@
 
 #include "common/pipeline.h"
 #include "harness/graphics.h"
+#include "harness/variants.h"
 
 namespace lapilli::conformance {
 
 VkResult try_create_compute_pipeline(const samples::Context& context, std::span<const uint32_t> shader,
                                      VkPipelineLayout layout, VkPipeline* pipeline,
                                      const VkSpecializationInfo* specialization, const char* entry_point) {
+  shader = in_variant(shader);
   VkShaderModuleCreateInfo module_info = {};
   module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
   module_info.codeSize = shader.size_bytes();

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "common/pipeline.h"
+#include "harness/variants.h"
 
 namespace lapilli::conformance {
 namespace {
@@ -29,12 +30,12 @@ VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits kind, VkShaderModule
 
 VkResult try_create_pipeline(const Context& context, const PipelineState& s, VkPipeline* pipeline,
                              const VkAllocationCallbacks* allocator) {
-  const samples::ShaderModule vertex = samples::create_shader_module(context, s.vertex_shader);
+  const samples::ShaderModule vertex = samples::create_shader_module(context, in_variant(s.vertex_shader));
   samples::ShaderModule fragment;
   std::vector<VkPipelineShaderStageCreateInfo> stages = {
       stage(VK_SHADER_STAGE_VERTEX_BIT, vertex.get(), s.specialization)};
   if (!s.fragment_shader.empty()) {
-    fragment = samples::create_shader_module(context, s.fragment_shader);
+    fragment = samples::create_shader_module(context, in_variant(s.fragment_shader));
     stages.push_back(stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.get(), s.specialization));
   }
 
