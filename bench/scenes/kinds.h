@@ -31,5 +31,9 @@ std::unique_ptr<Scene> shadow_map_scene(const SceneOptions& options);
 std::unique_ptr<Scene> saxpy_scene(const SceneOptions& options);
 std::unique_ptr<Scene> nbody_scene(const SceneOptions& options);
 std::unique_ptr<Scene> nbody_shared_scene(const SceneOptions& options);
+std::unique_ptr<Scene> matmul_scene(const SceneOptions& options);
+std::unique_ptr<Scene> fft_scene(const SceneOptions& options);
+std::unique_ptr<Scene> sort_scene(const SceneOptions& options);
+std::unique_ptr<Scene> histogram_scene(const SceneOptions& options);
 
 }  // namespace lapilli::bench

@@ -8,7 +8,7 @@
 namespace lapilli::bench {
 
 std::span<const SceneEntry> scenes() {
-  static constexpr std::array<SceneEntry, 21> kScenes = {{
+  static constexpr std::array<SceneEntry, 25> kScenes = {{
       {"clear", "clears the colour attachment", "", 0, 0, clear_scene},
       {"triangle", "one triangle over half the screen, three colours interpolated", "", 0, 0, triangle_scene},
       {"layers_btf", "opaque full-screen layers with a depth test, back to front", "layers", 64, 8,
@@ -33,6 +33,11 @@ std::span<const SceneEntry> scenes() {
       {"saxpy", "compute: y = a x + y", "elements", 4000000, 64000, saxpy_scene},
       {"nbody", "compute: gravity between all pairs, read from a buffer", "bodies", 4096, 512, nbody_scene},
       {"nbody_shared", "compute: the same in pieces through shared memory", "bodies", 4096, 512, nbody_shared_scene},
+      {"matmul", "compute: product of two matrices, by tiles in shared memory", "elements", 65536, 4096, matmul_scene},
+      {"fft", "compute: Fourier transforms of 1,024 numbers each", "numbers", 262144, 8192, fft_scene},
+      {"sort", "compute: pieces of 1,024 numbers sorted by a bitonic network", "numbers", 131072, 8192, sort_scene},
+      {"histogram", "compute: counts in 256 bins, atomics on shared memory", "numbers", 1048576, 65536,
+       histogram_scene},
   }};
   return kScenes;
 }
