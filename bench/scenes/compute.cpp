@@ -70,8 +70,7 @@ class Compute : public Scene {
     vkCmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(push), &push);
     vkCmdDispatch(commands, (count_ + kernel_.elements_per_group - 1) / kernel_.elements_per_group, 1, 1);
     barrier.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
-    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0,
-                         nullptr, 0, nullptr);
+    vkCmdPipelineBarrier(commands, kStages, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr, 0, nullptr);
   }
   // The first results as grey values, 0.5 for 0 (counts: 0.5 for 0, 1 for a tenth of all); black behind the last.
   samples::Frame read_back(const samples::Context&) const override {
