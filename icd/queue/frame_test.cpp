@@ -1,10 +1,12 @@
 // Frames of many draws: one that repeats takes no memory (neither its submission, nor its draws, nor the renderer
-// behind them), and one with more draws than are rendered at once looks the same.
+// behind them), and one with more draws than are rendered at once looks the same. Also a queue without memory.
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
+#include <new>
 
 #include "queue/test_scene.h"
 
@@ -41,6 +43,7 @@ TEST(Frame, ManyDrawsAreRenderedInSets) {
 namespace {
 
 std::atomic<long> allocations{0};
+thread_local bool refuses = false;  // what operator new asks for
 
 }  // namespace
 
@@ -53,7 +56,7 @@ void* __libc_memalign(size_t alignment, size_t size);
 
 void* malloc(size_t size) {
   allocations.fetch_add(1, std::memory_order_relaxed);
-  return __libc_malloc(size);
+  return refuses ? nullptr : __libc_malloc(size);
 }
 void* calloc(size_t count, size_t size) {
   allocations.fetch_add(1, std::memory_order_relaxed);
@@ -98,6 +101,25 @@ TEST(Frame, ARepeatedOneAllocatesNothing) {
   EXPECT_EQ(allocations.load() - before, 0);
   EXPECT_EQ(scene.pixel(2, 2)[0], 255);
   EXPECT_EQ(scene.pixel(7, 2)[1], 255);
+}
+
+TEST(Queue, WithoutMemoryForItsThreadTheSignalsStayAsTheyWere) {
+  TestContext context;
+  const ObjectPtr<Device> device =
+      make_object<Device>(HostMemory(), VK_SYSTEM_ALLOCATION_SCOPE_DEVICE, context.instance->physical_device);
+  bool refused = false;
+  refuses = true;
+  try {
+    device->queue->start();
+  } catch (const std::bad_alloc&) {
+    refused = true;
+  }
+  refuses = false;
+  EXPECT_TRUE(refused);
+  sigset_t blocked;
+  pthread_sigmask(SIG_SETMASK, nullptr, &blocked);
+  EXPECT_EQ(sigismember(&blocked, SIGINT), 0);
+  device->queue->start();
 }
 
 }  // namespace

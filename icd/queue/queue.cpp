@@ -4,7 +4,7 @@
 #include <pthread.h>
 #include <signal.h>
 
-#include <system_error>
+#include <exception>
 
 #include "base/fp_environment.h"
 #include "base/log.h"
@@ -23,8 +23,8 @@ std::thread start_thread_without_signals(Function function) {
   std::thread thread;
   try {
     thread = std::thread(function);
-  } catch (const std::system_error&) {
-    // The system has no thread left to give: a lack of memory as far as the application can tell.
+  } catch (const std::exception&) {
+    // The system has no thread or no memory left to give: the same to the application, which keeps its signals.
   }
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
   if (!thread.joinable()) throw std::bad_alloc();
