@@ -12,6 +12,17 @@ constexpr uint32_t kTrue = 0xFFFFFFFF;
 
 uint32_t truth(bool b) { return b ? kTrue : 0; }
 
+// As f_to_half, half_to_f and the zero of what no normalized half is give it in lanes.
+uint32_t quantize_to_half(uint32_t bits) {
+  constexpr uint32_t kInfinity = 0x7F800000, kNaN = 0x7FC00000, kSmallest = 0x38800000;  // 2^-14
+  const uint32_t magnitude = bits & ~0x80000000, sign = bits - magnitude;
+  if (magnitude > kInfinity) return kNaN;
+  // Half-way between the largest denormal half and 2^-14 lies 0x387FE000.
+  if (magnitude < kSmallest) return magnitude >= 0x387FE000 ? sign | kSmallest : sign;
+  const uint32_t rounded = (magnitude + 0xFFF + (magnitude >> 13 & 1)) & ~uint32_t{0x1FFF};  // to nearest even
+  return sign | (rounded >= 0x47800000 ? kInfinity : rounded);                               // from 2^16 on
+}
+
 // Operations on scalars; integer division follows ops.def at its edges. Empty: not one of them.
 std::optional<uint32_t> fold(spv::Op op, uint32_t a, uint32_t b, uint32_t c) {
   const int32_t sa = static_cast<int32_t>(a), sb = static_cast<int32_t>(b);
@@ -23,6 +34,8 @@ std::optional<uint32_t> fold(spv::Op op, uint32_t a, uint32_t b, uint32_t c) {
     return static_cast<uint32_t>(sign_of_b && rest != 0 && (rest < 0) != (sb < 0) ? rest + sb : rest);
   };
   switch (op) {
+    case spv::Op::OpQuantizeToF16:
+      return quantize_to_half(a);
     case spv::Op::OpSNegate:
       return 0 - a;
     case spv::Op::OpNot:

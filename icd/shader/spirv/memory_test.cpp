@@ -1,9 +1,12 @@
 // Buffers with all their layouts, push constants, arrays in registers and specialization constants, run in the
 // interpreter.
+#include <bit>
 #include <cmath>
+#include <random>
 
 #include "shader/spirv/test/run_shader.h"
 #include "shaders/memory.comp.h"
+#include "shaders/quantize.comp.h"
 #include "shaders/special.comp.h"
 
 namespace lapilli {
@@ -107,6 +110,45 @@ TEST(SpirvMemory, DefaultsOfSpecializationConstants) {
   EXPECT_EQ(results[0], 1.5f * 21.0f);
   EXPECT_EQ(results[1], 7.0f);
   EXPECT_EQ(results[2], 1.0f);
+}
+
+// When the pipeline is made as in lanes.
+TEST(SpirvMemory, QuantizedSpecializationConstants) {
+  struct Case {
+    float number, quantized;
+  };
+  constexpr Case kCases[] = {{1 + 0x1p-11f, 1},
+                             {1 + 0x3p-11f, 1 + 0x1p-9f},
+                             {-65519.996f, -65504},
+                             {65520, INFINITY},
+                             {-INFINITY, -INFINITY},
+                             {0x1p-14f, 0x1p-14f},
+                             {-0x1.FFBFFEp-15f, -0.0f},
+                             {0x1.FFCp-15f, 0x1p-14f},
+                             {0x1p-149f, 0},
+                             {-0.0f, -0.0f}};
+  ComputeRun run;
+  float* results = run.buffer<float>(0, 2);
+  const auto quantize = [&](uint32_t bits) {
+    run.specialization = {{0, bits, 4}};
+    results[1] = std::bit_cast<float>(bits);
+    run.run(shaders::kQuantizeComp);
+    EXPECT_EQ(std::bit_cast<uint32_t>(results[0]), std::bit_cast<uint32_t>(results[1])) << bits;
+  };
+  for (const Case& each : kCases) {
+    quantize(std::bit_cast<uint32_t>(each.number));
+    EXPECT_EQ(std::bit_cast<uint32_t>(results[0]), std::bit_cast<uint32_t>(each.quantized)) << each.number;
+  }
+  for (const uint32_t nan : {0x7F800001u, 0xFFFFFFFFu}) quantize(nan);
+  std::mt19937 random(3);
+  for (int i = 0; i < 300; ++i) {
+    // Mostly near the ends of the range, and near halves and what lies half-way between them.
+    const uint32_t power = i % 3 == 0   ? 0x38000000u
+                           : i % 3 == 1 ? 0x47000000u
+                                        : static_cast<uint32_t>(random()) & 0x7F800000u;
+    const uint32_t fraction = (static_cast<uint32_t>(random()) & 0xFFF000u) + static_cast<uint32_t>(random()) % 3 - 1;
+    quantize((power + fraction) | (static_cast<uint32_t>(random()) & 0x80000000u));
+  }
 }
 
 }  // namespace
