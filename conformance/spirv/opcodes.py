@@ -21,6 +21,7 @@ def grammar(file):
 
 
 def names_in(text):
+    text = re.sub(r"//[^\n]*", "", text)  # who only talks of an instruction neither accepts nor tests it
     return set(re.findall(r"\b(Op[A-Z]\w+)\b", text)) | {"Glsl" + n for n in re.findall(r"GLSLstd450(\w+)", text)}
 
 
