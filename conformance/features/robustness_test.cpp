@@ -10,6 +10,7 @@
 #include "shaders/flat_color.frag.h"
 #include "shaders/position_color.vert.h"
 #include "shaders/robust.comp.h"
+#include "shaders/robust_shared.comp.h"
 
 namespace lapilli::conformance {
 namespace {
@@ -41,6 +42,24 @@ TEST(Robustness, StorageBuffersAreBounded) {
         EXPECT_TRUE(values[i] == want[i] || (wraps && store != 0 && values[i] == 0xBAD)) << "element " << i;
       }
       if (HasFailure()) return;
+    }
+  }
+}
+
+TEST(Robustness, SharedMemoryIsBounded) {
+  if (!subject_is_lapilli()) GTEST_SKIP() << "the specification asks for nothing here";
+  for (const uint32_t index : {0u, 1u, 63u, 64u, 100u, 1u << 20, 0x3FFFFFFFu, 0x40000000u, ~0u}) {
+    for (const uint32_t store : {0u, 1u}) {
+      ComputeRun run;
+      run.shader = shaders::kRobustSharedComp;
+      run.buffers = {Bytes(64 * 4)};
+      run.push_constants = to_bytes(std::vector<uint32_t>{index, store});
+      const auto results = from_bytes<uint32_t>(run_compute(subject(), run)[0]);
+      for (uint32_t n = 0; n < 64; ++n) {
+        const bool inside = ((index + n) & 0x3FFFFFFF) < 64;  // the address in bytes wraps around
+        const uint32_t value = !inside ? 0 : store != 0 ? 0xBAD : 77;
+        EXPECT_EQ(results[n], 0x20000 + value) << index << ' ' << n << ' ' << store;
+      }
     }
   }
 }

@@ -80,11 +80,11 @@ void set_fragment_limits(VkPhysicalDeviceLimits& limits) {
 }
 
 void set_compute_limits(VkPhysicalDeviceLimits& limits) {
-  limits.maxComputeSharedMemorySize = 16384;
+  limits.maxComputeSharedMemorySize = kMaxSharedBytes;
   for (uint32_t& count : limits.maxComputeWorkGroupCount) count = kMaxWorkgroupCount;
-  limits.maxComputeWorkGroupInvocations = kMaxComputeInvocations;
-  limits.maxComputeWorkGroupSize[0] = kMaxComputeInvocations;
-  limits.maxComputeWorkGroupSize[1] = kMaxComputeInvocations;
+  limits.maxComputeWorkGroupInvocations = kMaxWorkgroupInvocations;
+  limits.maxComputeWorkGroupSize[0] = kMaxWorkgroupInvocations;
+  limits.maxComputeWorkGroupSize[1] = kMaxWorkgroupInvocations;
   limits.maxComputeWorkGroupSize[2] = 64;
 }
 

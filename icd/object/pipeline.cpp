@@ -39,21 +39,11 @@ PipelineResources resources_of(const PipelineLayout& layout) {
 
 namespace {
 
-Result<ComputeProgram> build(const VkComputePipelineCreateInfo& info) {
-  const StageInfo stage(info.stage);
-  Result<ComputeProgram> program = build_compute(stage.stage, PipelineLayout::from(info.layout)->resources());
-  if (!program) return program;
-  const uint64_t invocations = uint64_t{program->workgroup_size[0]} * program->workgroup_size[1];
-  if (invocations > kMaxComputeInvocations || invocations * program->workgroup_size[2] > kMaxComputeInvocations) {
-    return Error{VK_ERROR_UNKNOWN, "the workgroup has more invocations than maxComputeWorkGroupInvocations"};
-  }
-  return program;
-}
-
 VkResult create_one(DeviceContext& device, const VkComputePipelineCreateInfo& info,
                     const VkAllocationCallbacks* callbacks, VkPipeline* handle) {
   auto pipeline = make_object<Pipeline>(device.object_memory(callbacks), VK_SYSTEM_ALLOCATION_SCOPE_OBJECT);
-  Result<ComputeProgram> program = build(info);
+  const StageInfo stage(info.stage);
+  Result<ProgramPtr> program = build_compute(stage.stage, PipelineLayout::from(info.layout)->resources());
   if (!program) {
     log_error("vkCreateComputePipelines: %s", program.error().message.c_str());
     return program.error().code;

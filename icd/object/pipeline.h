@@ -64,7 +64,7 @@ struct Pipeline : Handle<Pipeline, VkPipeline> {
   VkPipelineBindPoint bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
   PipelineResources resources;
   GraphicsPart graphics;
-  ComputeProgram compute;
+  ProgramPtr compute;
 };
 
 // On an error every pipeline that could be made is made; the handles of the others are null.

@@ -100,7 +100,7 @@ void run_compute(CommandExecutor& executor, const uint32_t groups[3]) {
   ExecutionLimits limits;
   executor.start(limits);
   const bool done = flatten_resources(executor.state, executor.state.compute, executor.arena, resources) &&
-                    dispatch(executor.pool, pipeline->compute, resources, groups, &limits);
+                    dispatch(executor.pool, *pipeline->compute, resources, groups, &limits);
   if (!done) executor.fail(VK_ERROR_OUT_OF_HOST_MEMORY, "out of memory for a dispatch");
   if (limits.expired) executor.fail(VK_ERROR_DEVICE_LOST, "a compute shader ran past the time limit");
   if (executor.pass.pass == nullptr) executor.drop_blocks();

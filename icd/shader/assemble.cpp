@@ -34,6 +34,9 @@ class Assembler {
     program_.forms = std::move(choice.forms);
     if (Result<void> done = place_scalars(); !done) return done;
     make_once();
+    for (const Instruction& instruction : code_.instructions) {
+      if (instruction.op == Opcode::barrier) program_.frames = (code_.invocations() - 1) / kBatchLanes + 1;
+    }
     program_.ops.reserve(code_.instructions.size());
     for (uint32_t i = 0; i < code_.instructions.size(); ++i) program_.ops.push_back(make_op(i));
     if (program_.lists.size() > kNoOperand)

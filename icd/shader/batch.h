@@ -19,6 +19,10 @@ constexpr uint32_t kMaxVertexBindings = 16;
 constexpr uint32_t kMaxVertexAttributes = 16;
 constexpr uint32_t kMaxColorAttachments = 8;
 
+constexpr uint32_t kMaxWorkgroupInvocations = 1024;
+constexpr uint32_t kMaxWorkgroupBatches = kMaxWorkgroupInvocations / kBatchLanes;
+constexpr uint32_t kMaxSharedBytes = 65536;  // of a workgroup
+
 // All lanes of the quads that have one in `lanes`.
 inline uint64_t whole_quads(uint64_t lanes) { return live_quads(lanes) * 15; }
 

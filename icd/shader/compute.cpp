@@ -1,5 +1,4 @@
-// Compute dispatch: workgroups are cut into chunks, chunks go to threads, a workgroup runs in batches of 64
-// invocations.
+// Compute dispatch: workgroups are cut into chunks, chunks go to threads; a workgroup runs on one of them.
 #include "shader/compute.h"
 
 #include <algorithm>
@@ -29,29 +28,20 @@ bool expired(ExecutionLimits* limits, uint64_t groups_done) {
   return limits->expired.load(std::memory_order_relaxed);
 }
 
-void run_workgroup(Execution& execution, uint64_t number, const uint32_t groups[3], uint64_t invocations) {
-  ComputeBatch batch;
-  std::copy_n(groups, 3, batch.num_workgroups);
+void run_workgroup(Execution& execution, uint64_t number, const uint32_t groups[3]) {
   const uint64_t row = number / groups[0];
-  batch.workgroup[0] = static_cast<uint32_t>(number % groups[0]);
-  batch.workgroup[1] = static_cast<uint32_t>(row % groups[1]);
-  batch.workgroup[2] = static_cast<uint32_t>(row / groups[1]);
-  for (uint64_t first = 0; first < invocations; first += kBatchLanes) {
-    batch.first_invocation = static_cast<uint32_t>(first);
-    const uint64_t left = invocations - first;
-    execution.run_invocations(batch, left >= kBatchLanes ? ~uint64_t{0} : (uint64_t{1} << left) - 1);
-  }
+  const uint32_t workgroup[3] = {static_cast<uint32_t>(number % groups[0]), static_cast<uint32_t>(row % groups[1]),
+                                 static_cast<uint32_t>(row / groups[1])};
+  execution.run_workgroup(workgroup, groups);
 }
 
 }  // namespace
 
-bool dispatch(ThreadPool& pool, const ComputeProgram& program, const ResourceTable& resources, const uint32_t groups[3],
+bool dispatch(ThreadPool& pool, const Program& program, const ResourceTable& resources, const uint32_t groups[3],
               ExecutionLimits* limits) {
   // At most 65535^3 workgroups (VkPhysicalDeviceLimits::maxComputeWorkGroupCount).
   const uint64_t total = uint64_t{groups[0]} * groups[1] * groups[2];
-  const uint32_t* const size = program.workgroup_size;
-  const uint64_t invocations = uint64_t{size[0]} * size[1] * size[2];
-  if (total == 0 || invocations == 0) return true;
+  if (total == 0) return true;
 
   const std::unique_ptr<Worker[]> workers(new (std::nothrow) Worker[pool.size()]);
   if (workers == nullptr) return false;
@@ -61,14 +51,14 @@ bool dispatch(ThreadPool& pool, const ComputeProgram& program, const ResourceTab
   pool.parallel_for(chunks, [&](size_t index, unsigned number) {
     Worker& worker = workers[number];
     if (!worker.prepared) {
-      worker.prepared = worker.execution.prepare(*program.program, resources, limits);
+      worker.prepared = worker.execution.prepare(program, resources, limits);
       if (!worker.prepared) out_of_memory.store(true, std::memory_order_relaxed);
     }
     if (!worker.prepared) return;
     const uint64_t first = index * chunk;
     const uint64_t end = std::min(first + chunk, total);
     for (uint64_t group = first; group < end && !expired(limits, ++worker.groups_done); ++group) {
-      run_workgroup(worker.execution, group, groups, invocations);
+      run_workgroup(worker.execution, group, groups);
     }
   });
   return !out_of_memory.load(std::memory_order_relaxed);

@@ -16,7 +16,7 @@ Reg builtin(Code& code, BuiltIn which) {
 }
 
 // buffer[linear global index] += 1 + number of the workgroup.
-ComputeProgram counting_program(const uint32_t groups[3]) {
+ProgramPtr counting_program(const uint32_t groups[3]) {
   Code code;
   code.stage = VK_SHADER_STAGE_COMPUTE_BIT;
   std::copy_n(kSize, 3, code.workgroup_size);
@@ -35,10 +35,7 @@ ComputeProgram counting_program(const uint32_t groups[3]) {
   code.emit_void(Opcode::store_buffer, address, sum);
   code.emit_void(Opcode::end);
   EXPECT_EQ(verify(code), "");
-  ComputeProgram program;
-  program.program = std::move(*assemble(std::move(code)));
-  std::copy_n(kSize, 3, program.workgroup_size);
-  return program;
+  return std::move(*assemble(std::move(code)));
 }
 
 TEST(Dispatch, RunsEveryInvocationOnce) {
@@ -52,8 +49,8 @@ TEST(Dispatch, RunsEveryInvocationOnce) {
     descriptor.size = descriptor.room = words.size() * 4;
     ResourceTable resources;
     resources.sets[0] = &descriptor;
-    const ComputeProgram program = counting_program(groups);
-    ASSERT_TRUE(dispatch(pool, program, resources, groups, nullptr));
+    const ProgramPtr program = counting_program(groups);
+    ASSERT_TRUE(dispatch(pool, *program, resources, groups, nullptr));
     for (uint32_t z = 0; z < depth; ++z) {
       for (uint32_t y = 0; y < height; ++y) {
         for (uint32_t x = 0; x < width; ++x) {
@@ -69,18 +66,18 @@ TEST(Dispatch, NoWorkgroupsIsNothing) {
   ThreadPool pool(1);
   const uint32_t groups[3] = {4, 0, 5};
   const uint32_t any[3] = {1, 1, 1};
-  const ComputeProgram program = counting_program(any);
-  EXPECT_TRUE(dispatch(pool, program, ResourceTable{}, groups, nullptr));
+  const ProgramPtr program = counting_program(any);
+  EXPECT_TRUE(dispatch(pool, *program, ResourceTable{}, groups, nullptr));
 }
 
 TEST(Dispatch, ManyWorkgroupsEndAtTheDeadline) {
   ThreadPool pool(2);
   const uint32_t groups[3] = {65535, 65535, 65535};
   const uint32_t any[3] = {1, 1, 1};
-  const ComputeProgram program = counting_program(any);
+  const ProgramPtr program = counting_program(any);
   ExecutionLimits limits;
   limits.deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(20);
-  EXPECT_TRUE(dispatch(pool, program, ResourceTable{}, groups, &limits));
+  EXPECT_TRUE(dispatch(pool, *program, ResourceTable{}, groups, &limits));
   EXPECT_TRUE(limits.expired.load());
 }
 

@@ -110,7 +110,10 @@ struct RegArray {
   uint32_t count = 0;
 };
 
-// A descriptor that a program uses; instructions name it by index (imm).
+constexpr uint32_t kSharedMemory = 0xFFFFFFFF;
+
+// A descriptor that a program uses; instructions name it by index (imm). Or, with `set` kSharedMemory, a variable in
+// the workgroup's shared memory: `count` bytes from `first` on.
 struct ResourceRef {
   uint32_t set = 0;
   uint32_t first = 0;           // index of array element 0 in the set's descriptors
@@ -177,8 +180,11 @@ struct Code {
   std::vector<VertexAttribute> attributes;
   std::vector<VkFormat> color_formats;  // of the attachments named by load_color and store_color
   uint32_t workgroup_size[3] = {1, 1, 1};
+  uint32_t shared_bytes = 0;  // of a workgroup's memory, 0 at its start
   uint32_t output_slots = 0;  // vertex: slots written
   std::vector<Reg> kept;      // computed although nothing reads them: LAPILLI_KEEP
+
+  uint32_t invocations() const { return workgroup_size[0] * workgroup_size[1] * workgroup_size[2]; }  // of a workgroup
 
   Reg new_value(uint32_t count = 1);  // `count` consecutive registers of kind value
   Reg new_variable(uint32_t count = 1);

@@ -1,6 +1,7 @@
 // Checks what the passes and the interpreter rely on. The first defect found is described; an empty string means none.
 #include <array>
 
+#include "shader/batch.h"
 #include "shader/fixed_function.h"
 #include "shader/ir.h"
 #include "shader/resources.h"
@@ -68,6 +69,13 @@ class Verifier {
   }
 
   bool check_tables() {
+    if (code_.invocations() == 0 || code_.invocations() > kMaxWorkgroupInvocations ||
+        code_.shared_bytes > kMaxSharedBytes)
+      return fail("a workgroup of an impossible size");
+    for (const ResourceRef& ref : code_.resources) {
+      if (ref.set == kSharedMemory && uint64_t{ref.first} + ref.count > code_.shared_bytes)
+        return fail("a resource is outside the shared memory");
+    }
     for (Reg reg : code_.kept) {
       if (reg >= code_.registers.size()) return fail("keeps what is no register");
     }

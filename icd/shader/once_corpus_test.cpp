@@ -110,9 +110,8 @@ class Corpus : public testing::Test {
     fill();
     Execution execution;
     EXPECT_TRUE(execution.prepare(program, table, &limits));
-    ComputeBatch batch;
-    for (uint32_t& each : batch.num_workgroups) each = 2;
-    execution.run_invocations(batch, ~uint64_t{0});
+    const uint32_t first[3] = {}, groups[3] = {2, 2, 2};
+    execution.run_workgroup(first, groups);
     std::vector<std::byte> all;
     for (const std::vector<std::byte>& buffer : buffers) all.insert(all.end(), buffer.begin(), buffer.end());
     return all;
@@ -140,11 +139,11 @@ TEST_F(Corpus, TheSameBitsWithAndWithoutTheOnceSection) {
       limits.expired = false;
       const ShaderStage stage{parse_or_fail(shader.words), "main", {}};
       if (shader.is(".comp")) {
-        const Result<ComputeProgram> made = build_compute(stage, layout);
+        const Result<ProgramPtr> made = build_compute(stage, layout);
         ASSERT_TRUE(made.ok()) << shader.name << made.error().message;
-        results[way] = run_invocations(*made->program);
-        with_once += way == 0 && once_cost(*made->program) > 0;
-        EXPECT_TRUE(way == 0 || once_cost(*made->program) == 0);
+        results[way] = run_invocations(**made);
+        with_once += way == 0 && once_cost(**made) > 0;
+        EXPECT_TRUE(way == 0 || once_cost(**made) == 0);
         continue;
       }
       const ShaderStage vertex{parse_or_fail(shaders::kPositionColorVert), "main", {}};

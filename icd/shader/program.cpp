@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <new>
+#include <utility>
 
 #include "shader/program_data.h"
 
@@ -13,6 +14,8 @@ namespace {
 
 constexpr std::align_val_t kAlignment{64};
 constexpr Descriptor kUnwritten;
+
+constexpr size_t aligned(size_t bytes) { return (bytes + 63) / 64 * 64; }
 
 }  // namespace
 
@@ -24,6 +27,8 @@ const Descriptor& descriptor_at(const Frame& frame, uint32_t resource, uint32_t 
 }
 
 BufferRange buffer_at(const Frame& frame, uint32_t resource, uint32_t index) {
+  if (frame.refs[resource].set == kSharedMemory)
+    return {frame.shared + frame.refs[resource].first, frame.refs[resource].count};
   const Descriptor& descriptor = descriptor_at(frame, resource, index);
   if (descriptor.data == nullptr) return {};
   const ResourceRef& ref = frame.refs[resource];
@@ -51,7 +56,8 @@ uint64_t ExecutionLimits::next_serial() {
   return next.fetch_add(1, std::memory_order_relaxed);
 }
 
-// One block of memory: the frame, the registers, the mask registers, the buffers, the scalars.
+// One block of memory: frames, each with its registers and mask registers behind it; and what they share: buffers,
+// scalars, the workgroup's memory. There is one frame, or one for each batch of a workgroup with barriers.
 struct Execution::State {
   ~State() { release(); }
 
@@ -72,37 +78,45 @@ struct Execution::State {
   bool bind(const Program& next) {
     const Code& code = next.source;
     const size_t masks = sizeof(Frame) + next.register_count * kRegisterBytes;
-    const size_t ranges = masks + code.mask_count * sizeof(uint64_t);
-    const size_t scalars = ranges + code.resources.size() * sizeof(BufferRange);
-    if (!reserve(scalars + next.scalar_count * sizeof(uint32_t))) return false;
-    frame = new (memory) Frame;
-    frame->masks = new (memory + masks) uint64_t[code.mask_count];
-    buffers = new (memory + ranges) BufferRange[code.resources.size()];
-    frame->buffers = buffers;
-    frame->scalars = new (memory + scalars) uint32_t[next.scalar_count];
-    frame->last = &next.ops.back();
-    frame->refs = code.resources.data();
-    frame->lists = next.lists.data();
-    frame->attributes = next.attributes.data();
-    frame->colors = next.colors.data();
-    frame->blends = next.blends.data();
-    frame->depth = next.depth;
-    frame->sampling = next.sampling;
-    std::copy_n(code.workgroup_size, 3, frame->workgroup_size);
-    std::copy(next.constants.begin(), next.constants.end(), frame->scalars);
+    frame_bytes = aligned(masks + code.mask_count * sizeof(uint64_t));
+    const size_t ranges = next.frames * frame_bytes;
+    const size_t scalars = aligned(ranges + code.resources.size() * sizeof(BufferRange));
+    const size_t shared = aligned(scalars + next.scalar_count * sizeof(uint32_t));
+    if (!reserve(shared + code.shared_bytes)) return false;
     entry = &interpreter_run(next.target);
     spread = &interpreter_spread(next.target);
-    spread(next.constant_lanes, frame);
     program = &next;
+    buffers = new (memory + ranges) BufferRange[code.resources.size()];
+    uint32_t* const constants = new (memory + scalars) uint32_t[next.scalar_count];
+    std::copy(next.constants.begin(), next.constants.end(), constants);
+    for (uint32_t i = 0; i < next.frames; ++i) {
+      Frame* const each = new (memory + i * frame_bytes) Frame;
+      each->masks = new (memory + i * frame_bytes + masks) uint64_t[code.mask_count];
+      each->buffers = buffers;
+      each->scalars = constants;
+      each->shared = memory + shared;
+      each->last = &next.ops.back();
+      each->refs = code.resources.data();
+      each->lists = next.lists.data();
+      each->attributes = next.attributes.data();
+      each->colors = next.colors.data();
+      each->depth = next.depth;
+      each->sampling = next.sampling;
+      std::copy_n(code.workgroup_size, 3, each->workgroup_size);
+      spread(next.constant_lanes, each);
+    }
+    frame = frame_at(0);
     program_id = next.id;
     limits_serial = 0;
     return true;
   }
 
+  Frame* frame_at(uint32_t i) const { return std::launder(reinterpret_cast<Frame*>(memory + i * frame_bytes)); }
+
   void run_once() {
     once_is_due = false;
     entry(program->once.data(), frame);
-    spread(program->uniform_lanes, frame);
+    for (uint32_t i = 0; i < program->frames; ++i) spread(program->uniform_lanes, frame_at(i));
   }
 
   void run_once_for(uint32_t first, uint32_t end) {
@@ -117,22 +131,42 @@ struct Execution::State {
     }
   }
 
+  bool expired() const { return frame->limits != nullptr && frame->limits->expired.load(std::memory_order_relaxed); }
+
   void run(uint64_t exec, uint64_t write) {
-    if (write == 0) return;
-    if (frame->limits != nullptr && frame->limits->expired.load(std::memory_order_relaxed)) return;
+    if (write == 0 || expired()) return;
     if (once_is_due) run_once();
-    frame->exec = exec;
-    frame->write = write;
-    frame->lanes = write;
-    std::fill_n(frame->masks, program->source.mask_count, uint64_t{0});
-    entry(program->ops.data(), frame);
+    start(frame, exec, write);
+  }
+
+  // A batch from the program's start.
+  void start(Frame* batch, uint64_t exec, uint64_t write) {
+    batch->exec = exec;
+    batch->write = write;
+    batch->lanes = write;
+    batch->resume = nullptr;
+    std::fill_n(batch->masks, program->source.mask_count, uint64_t{0});
+    entry(program->ops.data(), batch);
+  }
+
+  // Takes every batch that waits at a barrier to its next one, or its end. False: none of them waits any more.
+  bool pass_barrier() {
+    bool waiting = false;
+    for (uint32_t i = 0; i < program->frames && !expired(); ++i) {
+      Frame* const batch = frame_at(i);
+      if (batch->resume == nullptr) continue;
+      entry(std::exchange(batch->resume, nullptr), batch);
+      waiting |= batch->resume != nullptr;
+    }
+    return waiting;
   }
 
   std::byte* memory = nullptr;
   size_t capacity = 0;
   uint64_t program_id = 0;  // that the memory is laid out for; 0: none
   const Program* program = nullptr;
-  Frame* frame = nullptr;
+  size_t frame_bytes = 0;
+  Frame* frame = nullptr;  // the first one
   BufferRange* buffers = nullptr;
   Run* entry = nullptr;
   SpreadScalars* spread = nullptr;
@@ -153,8 +187,10 @@ bool Execution::prepare(const Program& program, const ResourceTable& resources, 
   const uint64_t serial = limits != nullptr ? limits->serial : 0;
   if (serial != 0 && serial == state.limits_serial && frame->resources == &resources) return true;
   state.limits_serial = serial;
-  frame->limits = limits;
-  frame->resources = &resources;
+  for (uint32_t i = 0; i < program.frames; ++i) {
+    state.frame_at(i)->limits = limits;
+    state.frame_at(i)->resources = &resources;
+  }
   const size_t count = program.source.resources.size();
   for (uint32_t i = 0; i < count; ++i) state.buffers[i] = buffer_at(*frame, i, 0);
   state.once_is_due = !program.once.empty();
@@ -179,9 +215,27 @@ void Execution::run_fragments(const FragmentBatch& batch, uint64_t lanes) {
   state_->run(batch.lane_triangles != nullptr ? lanes : whole_quads(lanes), lanes);
 }
 
-void Execution::run_invocations(const ComputeBatch& batch, uint64_t lanes) {
-  state_->frame->invocations = &batch;
-  state_->run(lanes, lanes);
+void Execution::run_workgroup(const uint32_t workgroup[3], const uint32_t num_workgroups[3]) {
+  State& state = *state_;
+  if (state.expired()) return;
+  if (state.once_is_due) state.run_once();
+  const Code& code = state.program->source;
+  std::memset(state.frame->shared, 0, code.shared_bytes);
+  ComputeBatch batches[kMaxWorkgroupBatches];
+  const uint32_t invocations = code.invocations();
+  for (uint32_t i = 0; i * kBatchLanes < invocations; ++i) {
+    ComputeBatch& batch = batches[i];
+    std::copy_n(workgroup, 3, batch.workgroup);
+    std::copy_n(num_workgroups, 3, batch.num_workgroups);
+    batch.first_invocation = i * kBatchLanes;
+    const uint32_t left = invocations - batch.first_invocation;
+    const uint64_t lanes = left >= kBatchLanes ? ~uint64_t{0} : (uint64_t{1} << left) - 1;
+    Frame* const frame = state.frame_at(state.program->frames == 1 ? 0 : i);
+    frame->invocations = &batch;
+    state.start(frame, lanes, lanes);
+  }
+  while (state.pass_barrier()) {
+  }
 }
 
 }  // namespace lapilli

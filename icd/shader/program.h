@@ -67,7 +67,8 @@ class Execution {
   // lanes of covered quads.
   void run_vertices(const VertexBatch& batch, uint64_t lanes);
   void run_fragments(const FragmentBatch& batch, uint64_t lanes);
-  void run_invocations(const ComputeBatch& batch, uint64_t lanes);
+  // A whole workgroup, barriers and all: in batches of 64 invocations, in order up to the next barrier.
+  void run_workgroup(const uint32_t workgroup[3], const uint32_t num_workgroups[3]);
   // For tests: the register that holds `reg` of the source code after a run is not defined; use store_output /
   // store_buffer.
 

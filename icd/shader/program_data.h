@@ -28,6 +28,7 @@ struct Program {
   const TexelFunctions* depth = nullptr;
   const SamplingFunctions* sampling = nullptr;
   uint32_t register_count = 0;
+  uint32_t frames = 1;  // batches of a workgroup that may wait at a barrier at once
   uint32_t once_cost = 0, lane_cost = 0;
 };
 

@@ -426,15 +426,10 @@ Result<GraphicsPrograms> build_graphics(const ShaderStage& vertex, const ShaderS
   return out;
 }
 
-Result<ComputeProgram> build_compute(const ShaderStage& stage, const ResourceLayout& layout) {
+Result<ProgramPtr> build_compute(const ShaderStage& stage, const ResourceLayout& layout) {
   Result<Code> code = make_compute_code(stage, layout);
   if (!code) return code.error();
-  ComputeProgram out;
-  std::copy(std::begin(code->workgroup_size), std::end(code->workgroup_size), out.workgroup_size);
-  Result<ProgramPtr> program = assemble(std::move(*code));
-  if (!program) return program.error();
-  out.program = std::move(*program);
-  return out;
+  return assemble(std::move(*code));
 }
 
 }  // namespace lapilli

@@ -82,10 +82,6 @@ struct GraphicsPrograms : FragmentPlan {
 Result<GraphicsPrograms> build_graphics(const ShaderStage& vertex, const ShaderStage* fragment,
                                         const GraphicsState& state, const ResourceLayout& layout);
 
-struct ComputeProgram {
-  ProgramPtr program;
-  uint32_t workgroup_size[3] = {1, 1, 1};
-};
-Result<ComputeProgram> build_compute(const ShaderStage& stage, const ResourceLayout& layout);
+Result<ProgramPtr> build_compute(const ShaderStage& stage, const ResourceLayout& layout);
 
 }  // namespace lapilli

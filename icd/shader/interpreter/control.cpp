@@ -62,6 +62,13 @@ struct op_demote {
   }
 };
 
+struct op_barrier {
+  static HWY_INLINE const Op* run(const Op* op, Frame* frame) {
+    frame->resume = op + 1;
+    return frame->last;
+  }
+};
+
 // Ops that read a condition as a word of lanes.
 template <class Then>
 struct Condition {
@@ -181,6 +188,7 @@ const HandlerEntry kEntries[] = {
     LAPILLI_CONTROL(jump_if_none),
     LAPILLI_CONTROL(kill),
     LAPILLI_CONTROL(demote),
+    LAPILLI_CONTROL(barrier),
     LAPILLI_ENTRY(end, kStore, end_handler),
     LAPILLI_ENTRY(branch_if, kStore, Condition<BranchIf>::from_register),
     LAPILLI_ENTRY(branch_if, kStore | kAccumulatorIsA, Condition<BranchIf>::from_accumulator),

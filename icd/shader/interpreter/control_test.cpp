@@ -168,6 +168,30 @@ TEST(Op, demote) {
   }
 }
 
+// Ends the run; the batch goes on behind it with the lanes and registers that it had.
+TEST(Op, barrier) {
+  for (SimdTarget target : supported_simd_targets()) {
+    ControlFrame test(target);
+    const Op last = {find_handler(target, Opcode::end, kStore), 0, 0, 0, 0, 0, 0};
+    test.frame().last = &last;
+    test.frame().exec = kSome;
+    test.write(0, numbered(1));
+    test.write(1, numbered(0));
+    test.add(Opcode::barrier, kStore, Op{});
+    test.add(Opcode::mov, kStore, 1, 0);
+    Lanes got;
+    test.run([&](const Op* first) {
+      test.read(1, got);
+      EXPECT_EQ(got, numbered(0));
+      EXPECT_EQ(test.frame().exec, kSome);
+      ASSERT_EQ(test.frame().resume, first + 1);
+      interpreter_run(target)(test.frame().resume, &test.frame());
+    });
+    test.read(1, got);
+    EXPECT_EQ(got, numbered(1));
+  }
+}
+
 TEST(Op, end) {
   for (SimdTarget target : supported_simd_targets()) {
     ControlFrame test(target);

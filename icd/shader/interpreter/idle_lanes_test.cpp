@@ -54,13 +54,14 @@ TEST(IdleLanes, LoadsLeaveNothingOfAnEarlierBatch) {
 
     Execution execution;
     ASSERT_TRUE(execution.prepare(*program.value(), resources, nullptr));
+    const uint32_t first[3] = {}, groups[3] = {1, 1, 1};
     flags.fill(~0u);
     input.fill(1000);
-    execution.run_invocations({}, ~uint64_t{0});
+    execution.run_workgroup(first, groups);
 
     std::iota(input.begin(), input.end(), 1.0f);
     for (uint32_t lane = 0; lane < kBatchLanes; ++lane) flags[lane] = lane % 2 != 0 ? ~0u : 0u;
-    execution.run_invocations({}, ~uint64_t{0});
+    execution.run_workgroup(first, groups);
     for (uint32_t lane = 1; lane < kBatchLanes; lane += 2) {
       EXPECT_EQ(output[lane], static_cast<float>(lane + 1)) << lane;  // its left neighbour counts as 0
     }

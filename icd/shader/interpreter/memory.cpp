@@ -1,6 +1,7 @@
 // Ops: buffers, push constants and arrays of registers. Every component is checked against the bounds by itself.
 // Specification: "Robust Buffer Access".
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cstring>
 
@@ -234,6 +235,13 @@ struct op_buffer_size {
   }
 };
 
+struct op_memory_barrier {
+  static HWY_INLINE const Op* run(const Op* op, Frame*) {
+    std::atomic_thread_fence(std::memory_order_acq_rel);
+    return op + 1;
+  }
+};
+
 // Arrays: b or c is the first register, imm the number of elements.
 struct op_load_array {
   static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
@@ -267,7 +275,7 @@ struct op_store_array {
 const HandlerEntry kEntries[] = {
     LAPILLI_FAT(load_buffer, true), LAPILLI_FAT(store_buffer, false),     LAPILLI_FAT(load_uniform, true),
     LAPILLI_FAT(load_push, true),   LAPILLI_FAT(load_push_indexed, true), LAPILLI_FAT(buffer_size, true),
-    LAPILLI_FAT(load_array, true),  LAPILLI_FAT(store_array, false),
+    LAPILLI_FAT(load_array, true),  LAPILLI_FAT(store_array, false),      LAPILLI_CONTROL(memory_barrier),
 };
 
 }  // namespace

@@ -76,6 +76,20 @@ std::vector<Lanes> address_patterns() {
   return patterns;
 }
 
+// The passes keep accesses on their sides of it; the op itself touches nothing.
+TEST(Op, memory_barrier) {
+  for (SimdTarget target : supported_simd_targets()) {
+    TestFrame frame(target);
+    frame.write(0, same(7));
+    frame.add(Opcode::memory_barrier, kStore, Op{});
+    frame.add(Opcode::mov, kStore, 1, 0);
+    frame.run();
+    Lanes got;
+    frame.read(1, got);
+    EXPECT_EQ(got, same(7));
+  }
+}
+
 TEST(Op, load_buffer) {
   for (SimdTarget target : supported_simd_targets()) {
     for (const Lanes& addresses : address_patterns()) {

@@ -80,13 +80,15 @@ struct alignas(64) Frame {
   uint64_t write = 0;  // lanes that may have side effects
   uint64_t lanes = 0;  // `write` at the start: all others are helper lanes
   uint64_t* masks = nullptr;
-  const Op* last = nullptr;  // the op `end`
-  uint32_t loop_budget = 0;  // iterations until the clock is read
+  const Op* last = nullptr;    // the op `end`
+  uint32_t loop_budget = 0;    // iterations until the clock is read
+  const Op* resume = nullptr;  // where a batch that stopped at a barrier goes on
   ExecutionLimits* limits = nullptr;
 
   const ResourceTable* resources = nullptr;
   const ResourceRef* refs = nullptr;
   const BufferRange* buffers = nullptr;  // array element 0 of each resource
+  std::byte* shared = nullptr;           // the workgroup's memory
   uint32_t* scalars = nullptr;           // constants, and what is the same in all lanes of a draw
   const uint16_t* lists = nullptr;       // registers of operand lists
   const Attribute* attributes = nullptr;

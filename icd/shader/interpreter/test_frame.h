@@ -37,10 +37,16 @@ class TestFrame {
     operands.a = a;
     add(op, form, operands);
   }
-  void run() {
+  // Calls `then` with the first op when the run has ended.
+  template <class Then>
+  void run(Then&& then) {
     add(Opcode::end, kStore, Op{});
     interpreter_run(target_)(ops_.data(), &frame());
+    then(ops_.data());
     ops_.clear();
+  }
+  void run() {
+    run([](const Op*) {});
   }
 
  private:

@@ -63,6 +63,7 @@ class Splitter {
         return instruction.imm >= static_cast<uint32_t>(BuiltIn::blend_constant_r) &&
                instruction.imm <= static_cast<uint32_t>(BuiltIn::blend_constant_a);
       case Opcode::load_buffer:
+        if (code_.resources[instruction.imm].set == kSharedMemory) return false;
         if (stores_ && !code_.resources[instruction.imm].uniform) return false;
         return in_first_block || !crosses_lanes_;
       case Opcode::load_push_indexed:

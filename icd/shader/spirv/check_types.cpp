@@ -41,6 +41,7 @@ Result<void> check_pointer(const SpirvModule& module, const SpirvInst& inst) {
     case spv::StorageClass::UniformConstant:
     case spv::StorageClass::Input:
     case spv::StorageClass::Uniform:
+    case spv::StorageClass::Workgroup:
     case spv::StorageClass::Output:
     case spv::StorageClass::Private:
     case spv::StorageClass::Function:

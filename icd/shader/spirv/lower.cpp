@@ -230,7 +230,8 @@ void Lowering::lower_body_instruction(const SpirvInst& inst) {
     case spv::Op::OpCompositeInsert:
       return lower_composite(inst);
     default:
-      if (!lower_by_table(inst) && !lower_arithmetic(inst) && !lower_vector(inst) && !lower_image(inst))
+      if (!lower_by_table(inst) && !lower_arithmetic(inst) && !lower_vector(inst) && !lower_image(inst) &&
+          !lower_atomics(inst))
         fail("is not supported");
   }
 }

@@ -1,7 +1,9 @@
-// Lowering: uniform and storage buffers and push constants; offsets and strides come from the decorations.
+// Lowering: uniform and storage buffers and push constants; offsets and strides come from the decorations. And the
+// workgroup's memory, where a variable's scalars lie one behind the other.
 // Specification: chapter "Shader Interfaces", "Offset and Stride Assignment".
 #include <tuple>
 
+#include "shader/batch.h"
 #include "shader/spirv/lowering.h"
 
 namespace lapilli::spirv {
@@ -13,6 +15,11 @@ constexpr uint32_t kUniformResults = 16;  // of one load_uniform or load_push
 // Byte offset and kind of each scalar behind a pointer; wraps like the addresses.
 void Lowering::collect_offsets(const Pointer& from, std::vector<uint64_t>& offsets, std::vector<Kind>& kinds) {
   const Type& whole = type(from.type);
+  if (from.space == Space::shared) {
+    collect_scalar_kinds(from.type, kinds);
+    for (size_t i = 0; i < kinds.size(); ++i) offsets.push_back(from.offset + 4 * i);
+    return;
+  }
   if (whole.is_scalar()) {
     if (whole.kind == Kind::boolean) return fail("booleans have no layout in memory");
     offsets.push_back(from.offset);
@@ -75,6 +82,22 @@ std::pair<uint32_t, Reg> Lowering::resolve_descriptor(const BindingSlot* slot, u
   return {code_.add_resource(ref), kNoReg};
 }
 
+// The memory behind a pointer: a descriptor, or a variable of the workgroup, which gets its place when it is first
+// used.
+std::pair<uint32_t, Reg> Lowering::resource_of(const Pointer& pointer) {
+  if (pointer.space != Space::shared)
+    return resolve_descriptor(pointer.slot, pointer.descriptor_offset, pointer.descriptor, pointer.uniform);
+  if (which_ != VK_SHADER_STAGE_COMPUTE_BIT) fail("shared memory is for compute shaders");
+  Variable& variable = *pointer.variable;
+  const uint32_t bytes = 4 * variable.count;
+  if (variable.first == kNoReg) {
+    variable.first = code_.shared_bytes;
+    code_.shared_bytes += bytes;
+    if (code_.shared_bytes > kMaxSharedBytes) fail("the shared memory is larger than maxComputeSharedMemorySize");
+  }
+  return {code_.add_resource({kSharedMemory, variable.first, bytes}), kNoReg};
+}
+
 std::vector<Reg> Lowering::load_memory(const Pointer& from) {
   std::vector<uint64_t> offsets;
   std::vector<Kind> kinds;
@@ -84,9 +107,7 @@ std::vector<Reg> Lowering::load_memory(const Pointer& from) {
   const bool push = from.space == Space::push;
   uint32_t resource = 0;
   Reg descriptor = kNoReg;
-  if (!push)
-    std::tie(resource, descriptor) =
-        resolve_descriptor(from.slot, from.descriptor_offset, from.descriptor, from.uniform);
+  if (!push) std::tie(resource, descriptor) = resource_of(from);
   const bool fixed = from.dynamic == kNoReg && (push || (from.uniform && descriptor == kNoReg));
   const size_t most = fixed ? kUniformResults : kBufferResults;
   for (size_t i = 0; i < offsets.size() && !failed();) {
@@ -122,7 +143,7 @@ void Lowering::store_memory(const Pointer& to, std::span<const Reg> values) {
   std::vector<Kind> kinds;
   collect_offsets(to, offsets, kinds);
   if (failed()) return;
-  const auto [resource, descriptor] = resolve_descriptor(to.slot, to.descriptor_offset, to.descriptor);
+  const auto [resource, descriptor] = resource_of(to);
   const Reg address = to.dynamic == kNoReg ? constant(0) : to.dynamic;
   for (size_t i = 0; i < offsets.size() && i < values.size(); ++i) {
     const Reg value = kinds[i] == Kind::real ? canonical(values[i]) : values[i];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "shader/batch.h"
 #include "shader/spirv/grammar.h"
 #include "shader/spirv/lowering.h"
 
@@ -10,7 +11,6 @@ namespace lapilli::spirv {
 namespace {
 
 constexpr uint32_t kMaxLocations = 64;
-constexpr uint64_t kMaxWorkgroup = 1024;
 
 struct BuiltInRow {
   spv::BuiltIn built_in;
@@ -67,6 +67,9 @@ void Lowering::declare_globals(const SpirvEntryPoint& entry) {
       case spv::StorageClass::StorageBuffer:
         declare_resource(inst, false);
         break;
+      case spv::StorageClass::Workgroup:
+        declare_shared(inst);
+        break;
       default:
         return fail("its storage class is not supported here");
     }
@@ -93,6 +96,19 @@ void Lowering::declare_resource(const SpirvInst& inst, bool handle) {
   for (const BindingSlot& slot : layout_.slots) {
     if (slot.set == set && slot.binding == binding && slot.count != 0) value.pointer.slot = &slot;
   }
+  bind(inst[2], value);
+}
+
+void Lowering::declare_shared(const SpirvInst& inst) {
+  Value value;
+  value.shape = Value::Shape::pointer;
+  value.pointer.space = Space::shared;
+  value.pointer.type = type(inst[1]).element;
+  const uint64_t count = type(value.pointer.type).components;
+  if (count == 0 || count > kMaxVariableComponents) return fail("is a variable of a size that is not supported");
+  if (inst.count > 4 && m_.op(inst[4]) != spv::Op::OpConstantNull) return fail("its initializer is not null");
+  variables_.push_back({kNoReg, static_cast<uint32_t>(count)});
+  value.pointer.variable = &variables_.back();
   bind(inst[2], value);
 }
 
@@ -225,9 +241,10 @@ void Lowering::read_modes(const SpirvEntryPoint& entry) {
     std::copy(size->begin(), size->end(), code_.workgroup_size);
   }
   uint64_t invocations = 1;
-  for (const uint32_t size : code_.workgroup_size) invocations *= std::min<uint64_t>(size, kMaxWorkgroup + 1);
-  if (invocations == 0 || invocations > kMaxWorkgroup)
-    fail("a workgroup has from 1 to " + std::to_string(kMaxWorkgroup) + " invocations");
+  for (const uint32_t size : code_.workgroup_size)
+    invocations *= std::min<uint64_t>(size, kMaxWorkgroupInvocations + 1);
+  if (invocations == 0 || invocations > kMaxWorkgroupInvocations)
+    fail("a workgroup has from 1 to " + std::to_string(kMaxWorkgroupInvocations) + " invocations");
 }
 
 }  // namespace lapilli::spirv

@@ -117,11 +117,12 @@ void Lowering::index_pointer(Pointer& to, uint32_t index_id) {
   if (!type_of(index_id).is_integer()) return fail("an index is no integer");
   const std::optional<uint32_t> bits = constant_bits(index);
   const bool memory = to.space == Space::buffer || to.space == Space::push;
+  const uint32_t scalar_size = to.space == Space::shared ? 4 : 1;  // unit of offsets: bytes, or registers
   if (whole.kind == Kind::structure) {
     if (!bits || *bits >= whole.count) return fail("the index of a member is not a constant that names one");
     to.type = whole.members[*bits];
     if (!memory) {
-      to.offset += static_cast<uint32_t>(whole.member_first[*bits]);
+      to.offset += static_cast<uint32_t>(whole.member_first[*bits] * scalar_size);
       return;
     }
     const auto offset = m_.decoration(whole.id, *bits, spv::Decoration::Offset);
@@ -148,7 +149,7 @@ void Lowering::index_pointer(Pointer& to, uint32_t index_id) {
     return;
   }
   if (!memory) {
-    const uint64_t stride = type(whole.element).components;
+    const uint64_t stride = type(whole.element).components * scalar_size;
     if (bits) {  // outside the bounds: the last element
       to.offset += static_cast<uint32_t>(std::min(*bits, whole.count - 1) * stride);
       return;
@@ -174,7 +175,7 @@ std::vector<Reg> Lowering::load(const Pointer& from) {
     return {};
   }
   const uint32_t count = static_cast<uint32_t>(components);
-  if (from.space == Space::buffer || from.space == Space::push) return load_memory(from);
+  if (from.space == Space::buffer || from.space == Space::shared || from.space == Space::push) return load_memory(from);
   std::vector<Reg> regs(count, constant(0));
   if (from.space != Space::registers || from.offset + uint64_t{count} > from.variable->count) {
     fail("loads from a pointer that cannot be read");
@@ -205,7 +206,7 @@ std::vector<Reg> Lowering::load(const Pointer& from) {
 
 void Lowering::store(const Pointer& to, std::span<const Reg> values) {
   if (failed()) return;
-  if (to.space == Space::buffer) return store_memory(to, values);
+  if (to.space == Space::buffer || to.space == Space::shared) return store_memory(to, values);
   if (to.space != Space::registers || to.variable->input) return fail("stores to what is read-only");
   Variable& variable = *to.variable;
   if (to.offset + uint64_t{values.size()} > variable.count) return fail("stores outside of a variable");

@@ -56,21 +56,22 @@ struct Type {
   bool is_handle() const { return kind >= Kind::image; }
 };
 
-// A variable in registers: Function, Private, Output; or the value registers of an Input.
+// A variable in registers: Function, Private, Output; or the value registers of an Input. Or one in the workgroup's
+// memory, one scalar behind the other.
 struct Variable {
-  Reg first = 0;
+  Reg first = 0;  // in the workgroup's memory: its first byte; kNoReg: nothing uses it yet
   uint32_t count = 0;
   uint32_t array = kNoReg;  // Code::arrays, once it was indexed dynamically
   bool input = false;
 };
 
-enum class Space : uint8_t { none, registers, buffer, push, handle };
+enum class Space : uint8_t { none, registers, buffer, shared, push, handle };
 
 // What is known of a pointer while the program is made: all but `dynamic` and `descriptor`.
 struct Pointer {
   Space space = Space::none;
   uint32_t type = 0;                  // of what it points to
-  Variable* variable = nullptr;       // registers
+  Variable* variable = nullptr;       // registers, shared
   const BindingSlot* slot = nullptr;  // buffer, handle
   bool in_block = false;              // buffer: arrays are no longer arrays of descriptors
   uint32_t descriptor_offset = 0;
@@ -229,8 +230,12 @@ class Lowering {
                                               bool uniform = false);
   void lower_load(const SpirvInst& inst);
   void lower_array_length(const SpirvInst& inst);
+  std::pair<uint32_t, Reg> resource_of(const Pointer& pointer);
   uint32_t descriptors_in(uint32_t type);
   Reg canonical(Reg reg);  // before it is stored or seen as an integer: the same NaN on all machines
+
+  // --- lower_atomics.cpp ---
+  bool lower_atomics(const SpirvInst& inst);  // and barriers
 
   // --- lower_arithmetic.cpp, lower_vector.cpp, lower_ext.cpp, lower_image.cpp ---
   bool lower_by_table(const SpirvInst& inst);
@@ -273,6 +278,7 @@ class Lowering {
   void declare_located(uint32_t type, Place& place, Reg& next);
   Place place_of(uint32_t id, uint32_t member, Place place) const;
   void declare_resource(const SpirvInst& inst, bool handle);
+  void declare_shared(const SpirvInst& inst);
   void read_modes(const SpirvEntryPoint& entry);
 
   const SpirvModule& m_;

@@ -97,13 +97,13 @@ TEST(SpirvRefuse, WhatIsNotSupportedByName) {
   EXPECT_REFUSED("capability Geometry", a.add(a.head, Op::OpCapability, {2}));
   EXPECT_REFUSED("64-bit floats", a.add(a.globals, Op::OpTypeFloat, {20, 64}));
   EXPECT_REFUSED("16-bit integers", a.add(a.globals, Op::OpTypeInt, {20, 16, 0}));
-  EXPECT_REFUSED("Workgroup", a.add(a.globals, Op::OpTypePointer, {20, 4, kUint}));
+  EXPECT_REFUSED("CrossWorkgroup", a.add(a.globals, Op::OpTypePointer, {20, 5, kUint}));
   EXPECT_REFUSED("Cube", a.add(a.globals, Op::OpTypeImage, {20, kFloat, 3, 0, 0, 0, 1, 0}));
   EXPECT_REFUSED("SubpassData", a.add(a.globals, Op::OpTypeImage, {20, kFloat, 6, 0, 0, 0, 2, 0}));
   EXPECT_REFUSED("arrayed images", a.add(a.globals, Op::OpTypeImage, {20, kFloat, 1, 0, 1, 0, 2, 1}));
   EXPECT_REFUSED("multisampled images", a.add(a.globals, Op::OpTypeImage, {20, kFloat, 1, 0, 0, 1, 2, 1}));
   EXPECT_REFUSED("OpImageSparseRead", a.add(a.body, Op::OpImageSparseRead, {kFloat, 20, kOne, kOne}));
-  EXPECT_REFUSED("OpControlBarrier", a.add(a.body, Op::OpControlBarrier, {kOne, kOne, kOne}));
+  EXPECT_REFUSED("scope is more than a workgroup", a.add(a.body, Op::OpControlBarrier, {kOne, kOne, kOne}));
   EXPECT_REFUSED("extension SPV_X", a.add(a.head, Op::OpExtension, {0x5F565053, 0x58}));
   EXPECT_REFUSED("instruction set OpenCL", a.add(a.head, Op::OpExtInstImport, {20, 0x6E65704F, 0x4C43}));
   EXPECT_REFUSED("InterpolateAtCentroid is not supported",
@@ -224,6 +224,21 @@ TEST(SpirvRefuse, AbsurdSizes) {
     a.add(a.globals, Op::OpConstant, {kUint, 21, 0x10000});
     a.add(a.globals, Op::OpConstantComposite, {20, 22, 21, 21, 21});
   });
+}
+
+TEST(SpirvRefuse, TooMuchSharedMemory) {
+  const auto arrays = [](uint32_t length) {
+    return outcome_of([&](Assembler& a) {
+      a.add(a.globals, Op::OpConstant, {kUint, 20, length});
+      a.add(a.globals, Op::OpTypeArray, {21, kFloat, 20});
+      a.add(a.globals, Op::OpTypePointer, {23, 4, 21});
+      a.add(a.globals, Op::OpVariable, {23, 24, 4});
+      a.add(a.globals, Op::OpVariable, {23, 25, 4});
+      a.add(a.body, Op::OpCopyMemory, {24, 25});
+    });
+  };
+  EXPECT_EQ(arrays(8192), "");
+  EXPECT_NE(arrays(8193).find("larger than maxComputeSharedMemorySize"), std::string::npos);
 }
 
 TEST(SpirvRefuse, DeepTypes) {

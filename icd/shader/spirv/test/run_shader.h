@@ -50,7 +50,6 @@ class ComputeRun {
     ASSERT_TRUE(code.ok()) << code.error().message;
     ASSERT_EQ(verify(*code), "") << disassemble(*code);
     std::copy(std::begin(code->workgroup_size), std::end(code->workgroup_size), workgroup_size);
-    const uint32_t size = workgroup_size[0] * workgroup_size[1] * workgroup_size[2];
     Result<ProgramPtr> program = assemble(std::move(*code));
     ASSERT_TRUE(program.ok()) << program.error().message;
     ResourceTable table;
@@ -60,16 +59,10 @@ class ComputeRun {
     Execution execution;
     ExecutionLimits limits;
     ASSERT_TRUE(execution.prepare(**program, table, &limits));
+    const uint32_t counts[3] = {groups, 1, 1};
     for (uint32_t group = 0; group < groups; ++group) {
-      for (uint32_t first = 0; first < size; first += kBatchLanes) {
-        ComputeBatch batch;
-        batch.workgroup[0] = group;
-        batch.num_workgroups[0] = groups;
-        batch.num_workgroups[1] = batch.num_workgroups[2] = 1;
-        batch.first_invocation = first;
-        const uint32_t lanes = std::min(kBatchLanes, size - first);
-        execution.run_invocations(batch, lanes == kBatchLanes ? ~uint64_t{0} : (uint64_t{1} << lanes) - 1);
-      }
+      const uint32_t workgroup[3] = {group, 0, 0};
+      execution.run_workgroup(workgroup, counts);
     }
   }
 
