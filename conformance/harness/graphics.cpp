@@ -63,6 +63,7 @@ VkResult try_create_pipeline(const Context& context, const PipelineState& s, VkP
 
   auto raster =
       zeroed<VkPipelineRasterizationStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO);
+  raster.rasterizerDiscardEnable = s.rasterizer_discard;
   raster.cullMode = s.cull;
   raster.frontFace = s.front_face;
   raster.lineWidth = 1;

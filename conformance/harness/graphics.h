@@ -21,6 +21,7 @@ struct PipelineState {
   bool primitive_restart = false;
   VkCullModeFlags cull = VK_CULL_MODE_NONE;
   VkFrontFace front_face = VK_FRONT_FACE_COUNTER_CLOCKWISE;
+  bool rasterizer_discard = false;
   bool depth_test = false;
   bool depth_write = false;
   VkCompareOp depth_compare = VK_COMPARE_OP_LESS;

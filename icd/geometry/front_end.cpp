@@ -29,7 +29,8 @@ constexpr uint32_t kWorthALook = 1u << 16;
 
 bool has_effect(const DrawCall& draw) {
   const GraphicsPrograms& programs = *draw.state->programs;
-  if (draw.instance_count == 0 || draw.state->raster.rasterizer_discard || programs.fragment == nullptr) return false;
+  if (programs.vertices_store) return true;
+  if (draw.state->raster.rasterizer_discard || programs.fragment == nullptr) return false;
   const bool counts = draw.samples_passed != nullptr;
   return !programs.fragment_reads_nothing || programs.depth_write || counts;
 }
@@ -80,12 +81,12 @@ void FrontEnd::begin(std::span<const DrawCall> draws, const TileGrid& grid, cons
 
 // Whether nobody can tell that the draw is missing.
 bool FrontEnd::may_skip(const DrawCall& draw) {
-  if (!has_effect(draw) || !is_triangle_topology(draw.state->raster.topology)) return true;
+  if (draw.instance_count == 0 || !has_effect(draw) || !is_triangle_topology(draw.state->raster.topology)) return true;
   if (known_state_ != draw.state) {
     known_state_ = draw.state;
     const SetupState state = make_setup_state(*draw.state, area_);
-    state_has_no_pixel_ =
-        (state.rect.empty() || !(state.keep_clockwise || state.keep_counterclockwise)) && !keeps(Removal::triangles);
+    state_has_no_pixel_ = (state.rect.empty() || !(state.keep_clockwise || state.keep_counterclockwise)) &&
+                          !draw.state->programs->vertices_store && !keeps(Removal::triangles);
   }
   if (state_has_no_pixel_ && draw.ledger != nullptr) {
     add_to_ledger(draw.ledger, Removal::triangles, count_triangles(draw), 0);
@@ -182,7 +183,7 @@ void FrontEnd::fill(const Chunk& plan, Worker& worker, BinChunk& out) {
 
 // Triangles of draws with the same state are set up together. Those that have bindings in common, too, share batches of
 // vertices if the program reads resources once per draw at most, and with the same resources the vertices themselves
-// where index and instance are the same.
+// where index and instance are the same, unless the program counts who comes.
 void FrontEnd::fill_list(std::span<const WorkItem> items, Worker& worker, BinChunk& out) {
   const SetupState state = make_setup_state(*draws_[items[0].draw].state, area_);
   TriangleList list;
@@ -200,7 +201,8 @@ void FrontEnd::fill_list(std::span<const WorkItem> items, Worker& worker, BinChu
   for (const WorkItem& item : items) {
     const DrawCall& draw = draws_[item.draw];
     if (before == nullptr || before->bindings != draw.bindings ||
-        (before->resources != draw.resources && draw.state->programs->vertices_read_resources)) {
+        (before->resources != draw.resources && draw.state->programs->vertices_read_resources) ||
+        (before != &draw && draw.state->programs->vertices_store)) {
       if (before != nullptr) stage.run(state, out);
       if (!stage.begin(draw, *limits_)) throw std::bad_alloc();
     } else if (before->resources != draw.resources) {

@@ -24,8 +24,7 @@ bool fits_subpass(const GraphicsPart& pipeline, const PassState& pass) {
 bool may_draw(const CommandExecutor& executor) {
   const Pipeline* pipeline = executor.state.graphics.pipeline;
   if (executor.pass.pass == nullptr || pipeline == nullptr) return false;
-  // No shader stores (the feature vertexPipelineStoresAndAtomics is not offered), so that nothing is left to do.
-  if (pipeline->graphics.rasterizer_discard) return false;
+  if (pipeline->graphics.rasterizer_discard) return pipeline->graphics.programs.vertices_store;
   if (fits_subpass(pipeline->graphics, executor.pass)) return true;
   log_error("a draw with a pipeline for other attachments than the subpass has");
   return false;

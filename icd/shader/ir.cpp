@@ -14,6 +14,8 @@ ImmRoles imm_roles(Opcode opcode) {
     case Opcode::load_uniform:
     case Opcode::store_buffer:
       return {ImmRole::resource, ImmRole::bytes};
+    case Opcode::atomic:
+      return {ImmRole::resource, ImmRole::number};
     case Opcode::buffer_size:
       return {ImmRole::resource, ImmRole::none};
     case Opcode::load_push:
@@ -58,6 +60,10 @@ ImmRoles imm_roles(Opcode opcode) {
     default:
       return {};
   }
+}
+
+bool writes_resource(const Instruction& instruction) {
+  return (op_info(instruction.op).effects & kWritesMemory) != 0 && imm_roles(instruction.op).imm == ImmRole::resource;
 }
 
 ImageList image_list(Opcode opcode) {

@@ -91,6 +91,9 @@ struct Instruction {
   uint32_t spirv_word = 0;  // index of the SPIR-V word that this came from, 0: fixed function
 };
 
+// Changes memory that others see.
+bool writes_resource(const Instruction& instruction);
+
 enum class RegKind : uint8_t {
   value,     // written by exactly one instruction, before all uses in linear order
   variable,  // written any number of times, by masked and plain instructions (phis, Function and Private variables)
@@ -163,6 +166,22 @@ enum class BuiltIn : uint32_t {
   blend_constant_a,
   helper_invocation,  // 0 or ~0
   lane_index,         // 0..63, for tests
+  kCount
+};
+
+// What the op `atomic` makes of a word and its value. A store is an exchange whose result nobody reads.
+enum class AtomicOp : uint32_t {
+  load,
+  exchange,
+  compare_exchange,  // the value, if the word equals the comparator
+  add,
+  smin,
+  smax,
+  umin,
+  umax,
+  bit_and,
+  bit_or,
+  bit_xor,
   kCount
 };
 

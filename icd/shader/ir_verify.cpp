@@ -203,6 +203,7 @@ class Verifier {
     if (uint64_t{instruction.list_first} + instruction.list_count > code_.operand_list.size()) {
       return fail_here("list outside the operand list");
     }
+    if (instruction.op == Opcode::atomic) return check_atomic(instruction);
     const bool color = writes_color(instruction.op);
     const ImageList image = image_list(instruction.op);
     const uint32_t count = color ? 4 : image.count;
@@ -212,6 +213,21 @@ class Verifier {
       const bool optional = color ? (instruction.imm2 >> i & 1) == 0 : i < 2 || i >= 2 + image.required;
       const char which = static_cast<char>('0' + i);
       if (reg == kNoReg && !optional) return fail_operand(which, "is missing");
+      if (reg != kNoReg && !check_use(which, reg)) return false;
+    }
+    return true;
+  }
+
+  // Address, descriptor, value, comparator.
+  bool check_atomic(const Instruction& instruction) {
+    if (instruction.list_count != 4) return fail_here("wrong length of the operand list");
+    if (instruction.imm2 >= static_cast<uint32_t>(AtomicOp::kCount)) return fail_here("unknown atomic operation");
+    const auto op = static_cast<AtomicOp>(instruction.imm2);
+    const bool needed[4] = {true, false, op != AtomicOp::load, op == AtomicOp::compare_exchange};
+    for (uint32_t i = 0; i < 4; ++i) {
+      const Reg reg = code_.operand_list[instruction.list_first + i];
+      const char which = static_cast<char>('0' + i);
+      if (reg == kNoReg && needed[i]) return fail_operand(which, "is missing");
       if (reg != kNoReg && !check_use(which, reg)) return false;
     }
     return true;

@@ -402,6 +402,8 @@ bool read_resources(std::span<const Instruction> instructions) {
   });
 }
 
+bool store(std::span<const Instruction> instructions) { return std::ranges::any_of(instructions, writes_resource); }
+
 }  // namespace
 
 Result<GraphicsPrograms> build_graphics(const ShaderStage& vertex, const ShaderStage* fragment,
@@ -421,6 +423,7 @@ Result<GraphicsPrograms> build_graphics(const ShaderStage& vertex, const ShaderS
   out.output_slots = code->output_slots;
   out.fragment_reads_nothing = code->fragment_reads_nothing;
   out.vertices_read_resources = read_resources(source(*out.vertex).instructions);
+  out.vertices_store = store(source(*out.vertex).instructions);
   const Code& fragment_code = source(*out.fragment);
   out.fragment_reads_resources = read_resources(fragment_code.once) || read_resources(fragment_code.instructions);
   return out;

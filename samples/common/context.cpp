@@ -146,6 +146,11 @@ void Context::create_device() {
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
+  VkPhysicalDeviceFeatures features = {}, offered;
+  vkGetPhysicalDeviceFeatures(physical_device_, &offered);
+  features.fragmentStoresAndAtomics = offered.fragmentStoresAndAtomics;
+  features.vertexPipelineStoresAndAtomics = offered.vertexPipelineStoresAndAtomics;
+  info.pEnabledFeatures = &features;
   check(vkCreateDevice(physical_device_, &info, nullptr, &device_), "vkCreateDevice");
   vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
 

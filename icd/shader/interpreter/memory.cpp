@@ -12,6 +12,7 @@
 #include <hwy/foreach_target.h>
 
 #include "base/lanes_gather-inl.h"
+#include "shader/interpreter/atomics-inl.h"
 #include "shader/interpreter/handlers.h"
 #include "shader/interpreter/machine-inl.h"
 
@@ -235,6 +236,31 @@ struct op_buffer_size {
   }
 };
 
+struct op_atomic {
+  static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
+    const uint16_t* const list = frame->lists + op->a;
+    const auto operand = [&](int i) { return list[i] == kNoOperand ? nullptr : reg_u(frame, list[i]); };
+    const uint32_t* const addresses = operand(0);
+    const uint32_t* const indices = operand(1);
+    AtomicLanes lanes;
+    lanes.value = operand(2);
+    lanes.comparator = operand(3);
+    lanes.old = reg_out(frame, op->dst);
+    lanes.shared = frame->refs[op->imm].set == kSharedMemory;
+    BufferRange buffer = frame->buffers[op->imm];
+    for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
+      lanes.word[lane] = nullptr;
+      if (((frame->exec & frame->write) >> lane & 1) == 0) continue;
+      if (indices != nullptr) buffer = buffer_at(*frame, op->imm, indices[lane]);
+      const bool inside = uint64_t{addresses[lane]} + 4 <= buffer.size;
+      std::byte* const at = buffer.data + addresses[lane];
+      if (inside && reinterpret_cast<uintptr_t>(at) % 4 == 0) lanes.word[lane] = reinterpret_cast<uint32_t*>(at);
+    }
+    change_lanes(static_cast<AtomicOp>(op->imm2), lanes);
+    return op + 1;
+  }
+};
+
 struct op_memory_barrier {
   static HWY_INLINE const Op* run(const Op* op, Frame*) {
     std::atomic_thread_fence(std::memory_order_acq_rel);
@@ -276,6 +302,7 @@ const HandlerEntry kEntries[] = {
     LAPILLI_FAT(load_buffer, true), LAPILLI_FAT(store_buffer, false),     LAPILLI_FAT(load_uniform, true),
     LAPILLI_FAT(load_push, true),   LAPILLI_FAT(load_push_indexed, true), LAPILLI_FAT(buffer_size, true),
     LAPILLI_FAT(load_array, true),  LAPILLI_FAT(store_array, false),      LAPILLI_CONTROL(memory_barrier),
+    LAPILLI_FAT(atomic, true),
 };
 
 }  // namespace

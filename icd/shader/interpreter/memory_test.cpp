@@ -1,7 +1,9 @@
 // Tests of single ops: buffers, push constants, arrays. Each component that is out of range reads 0 and writes nothing.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <vector>
 
 #include "shader/interpreter/test_frame.h"
 #include "shader/program.h"
@@ -74,6 +76,90 @@ std::vector<Lanes> address_patterns() {
   for (uint32_t& lane : lanes) lane = static_cast<uint32_t>(random()) & ~3u;
   patterns.push_back(lanes);
   return patterns;
+}
+
+uint32_t changed(AtomicOp op, uint32_t old, uint32_t value, uint32_t comparator) {
+  const int32_t a = static_cast<int32_t>(old), b = static_cast<int32_t>(value);
+  switch (op) {
+    case AtomicOp::load:
+      return old;
+    case AtomicOp::exchange:
+      return value;
+    case AtomicOp::compare_exchange:
+      return old == comparator ? value : old;
+    case AtomicOp::add:
+      return old + value;
+    case AtomicOp::smin:
+      return static_cast<uint32_t>(std::min(a, b));
+    case AtomicOp::smax:
+      return static_cast<uint32_t>(std::max(a, b));
+    case AtomicOp::umin:
+      return std::min(old, value);
+    case AtomicOp::umax:
+      return std::max(old, value);
+    case AtomicOp::bit_and:
+      return old & value;
+    case AtomicOp::bit_or:
+      return old | value;
+    default:
+      return old ^ value;
+  }
+}
+
+// One lane after the other, on buffers and on shared memory; lanes that may not write get 0.
+TEST(Op, atomic) {
+  const uint64_t write = 0xFFFFFFFF00000FFF;
+  std::mt19937 random(8);
+  Lanes values, comparators, index;
+  for (uint32_t i = 0; i < kBatchLanes; ++i) {
+    values[i] = i % 3 == 0 ? static_cast<uint32_t>(random()) : 1000 + i;
+    comparators[i] = 1000 + i / 2;
+    index[i] = i % 5 == 4 ? 0xFFFFFFFFu : i % 5;
+  }
+  for (SimdTarget target : supported_simd_targets()) {
+    for (uint32_t kind = 0; kind < 11 * 3; ++kind) {
+      const AtomicOp op = static_cast<AtomicOp>(kind / 3);
+      const bool indexed = kind % 3 == 1, shared = kind % 3 == 2;
+      std::vector<Lanes> patterns = address_patterns();
+      patterns.push_back(same(2));  // not aligned: as if outside
+      for (const Lanes& addresses : patterns) {
+        MemoryTest test(target);
+        if (shared) {
+          test.frame.frame().shared = reinterpret_cast<std::byte*>(test.words.data()) - 16;
+          test.ref = {kSharedMemory, 16, sizeof test.words};
+          test.bind();
+        }
+        test.frame.frame().exec = kSome;
+        test.frame.frame().write = write;
+        test.frame.write(0, addresses);
+        test.frame.write(1, index);
+        test.frame.write(2, values);
+        test.frame.write(3, comparators);
+        const uint16_t list[] = {0, static_cast<uint16_t>(indexed ? 1 : kNoOperand), 2, 3};
+        test.frame.frame().lists = list;
+        std::array<uint32_t, kWords> expected = test.words;
+        Lanes old;
+        for (uint32_t i = 0; i < kBatchLanes; ++i) {
+          const uint32_t element = indexed ? index[i] : 0;
+          const uint64_t size = shared ? sizeof test.words : element < 3 ? test.descriptors[element].size : 0;
+          old[i] = 0;
+          if ((kSome & write & uint64_t{1} << i) == 0 || addresses[i] + uint64_t{4} > size || addresses[i] % 4 != 0)
+            continue;
+          uint32_t& word = expected[addresses[i] / 4];
+          old[i] = word;
+          word = changed(op, word, values[i], comparators[i]);
+        }
+        test.frame.write(4, same(kOld));
+        test.frame.add(Opcode::atomic, kStore, Op{nullptr, 4, 0, 0, 0, 0, static_cast<uint32_t>(op)});
+        test.frame.run();
+        Lanes got;
+        test.frame.read(4, got);
+        EXPECT_EQ(got, old) << kind << ' ' << addresses[0] << ' ' << addresses[1];
+        EXPECT_EQ(test.words, expected) << kind << ' ' << addresses[0] << ' ' << addresses[1];
+        if (testing::Test::HasFailure()) return;
+      }
+    }
+  }
 }
 
 // The passes keep accesses on their sides of it; the op itself touches nothing.

@@ -19,8 +19,7 @@ class Splitter {
  public:
   explicit Splitter(Code& code) : code_(code) {
     for (const Instruction& instruction : code.instructions) {
-      const bool writes = (op_info(instruction.op).effects & kWritesMemory) != 0;
-      stores_ |= writes && imm_roles(instruction.op).imm == ImmRole::resource;
+      stores_ |= writes_resource(instruction);
       crosses_lanes_ |= (op_info(instruction.op).effects & kCrossLane) != 0;
     }
   }

@@ -236,6 +236,7 @@ class Lowering {
 
   // --- lower_atomics.cpp ---
   bool lower_atomics(const SpirvInst& inst);  // and barriers
+  void lower_barrier(const SpirvInst& inst);
 
   // --- lower_arithmetic.cpp, lower_vector.cpp, lower_ext.cpp, lower_image.cpp ---
   bool lower_by_table(const SpirvInst& inst);
