@@ -9,6 +9,7 @@
 #include "harness/compute.h"
 #include "harness/devices.h"
 #include "shaders/atomics.comp.h"
+#include "shaders/atomics_plain.comp.h"
 #include "shaders/histogram.comp.h"
 #include "shaders/robust_atomics.comp.h"
 
@@ -84,6 +85,22 @@ TEST(Atomics, AllOperationsOnBuffersAndSharedMemory) {
     if (!subject_is_lapilli()) std::sort(taken.begin(), taken.end());
     for (uint32_t i = 0; i < taken.size(); ++i) ASSERT_EQ(taken[i], i) << group;
   }
+}
+
+TEST(Atomics, InstructionsThatGlslDoesNotHave) {
+  constexpr uint32_t kGroups = 50, kSize = 100, kCount = kGroups * kSize;
+  ComputeRun run;
+  run.shader = shaders::kAtomicsPlainComp;
+  run.buffers = {to_bytes(std::vector<uint32_t>{5, 6, 7, 1000, 3, 0, 0, 0})};
+  run.groups[0] = kGroups;
+  const auto words = from_bytes<uint32_t>(run_compute(subject(), run)[0]);
+  EXPECT_EQ(words[0], 5 + kCount);
+  EXPECT_EQ(words[1], 6 - kCount);
+  EXPECT_EQ(words[2], 7 - kGroups * (kSize * (kSize - 1) / 2));
+  EXPECT_LT(words[3], kSize);
+  EXPECT_EQ(words[4], 3u);
+  EXPECT_EQ(words[5], 3 * kCount);
+  EXPECT_EQ(words[6], kSize);
 }
 
 TEST(Atomics, Histogram) {

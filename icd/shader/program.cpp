@@ -100,6 +100,7 @@ struct Execution::State {
       each->lists = next.lists.data();
       each->attributes = next.attributes.data();
       each->colors = next.colors.data();
+      each->blends = next.blends.data();
       each->depth = next.depth;
       each->sampling = next.sampling;
       std::copy_n(code.workgroup_size, 3, each->workgroup_size);

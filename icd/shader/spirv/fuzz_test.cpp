@@ -8,12 +8,14 @@
 #include <gtest/gtest.h>
 
 #include "shader/spirv/test/try_module.h"
+#include "shaders/atomics.comp.h"
 #include "shaders/control.comp.h"
 #include "shaders/functions.comp.h"
 #include "shaders/interface.frag.h"
 #include "shaders/interface.vert.h"
 #include "shaders/memory.comp.h"
 #include "shaders/phis.comp.h"
+#include "shaders/shared_types.comp.h"
 #include "shaders/special.comp.h"
 #include "shaders/texture.frag.h"
 
@@ -21,8 +23,9 @@ namespace lapilli {
 namespace {
 
 const std::span<const uint32_t> kSamples[] = {
-    shaders::kControlComp, shaders::kFunctionsComp, shaders::kInterfaceFrag, shaders::kInterfaceVert,
-    shaders::kMemoryComp,  shaders::kPhisComp,      shaders::kSpecialComp,   shaders::kTextureFrag,
+    shaders::kAtomicsComp,   shaders::kSharedTypesComp, shaders::kControlComp, shaders::kFunctionsComp,
+    shaders::kInterfaceFrag, shaders::kInterfaceVert,   shaders::kMemoryComp,  shaders::kPhisComp,
+    shaders::kSpecialComp,   shaders::kTextureFrag,
 };
 
 TEST(SpirvFuzz, SamplesAreFine) {

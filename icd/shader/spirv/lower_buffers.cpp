@@ -26,8 +26,7 @@ void Lowering::collect_offsets(const Pointer& from, std::vector<uint64_t>& offse
     kinds.push_back(whole.kind);
     return;
   }
-  if (whole.kind == Kind::runtime_array || (whole.kind == Kind::structure && whole.count == 0))
-    return fail("is no value of a known size");
+  if (whole.kind == Kind::runtime_array) return fail("is no value of a known size");
   for (uint32_t i = 0; i < whole.count && !failed(); ++i) {
     Pointer part = from;
     switch (whole.kind) {

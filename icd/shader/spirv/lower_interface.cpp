@@ -228,6 +228,14 @@ void Lowering::read_modes(const SpirvEntryPoint& entry) {
         if (inst.count != 6) return fail("LocalSize has not three sizes");
         for (uint32_t i = 0; i < 3; ++i) code_.workgroup_size[i] = inst[3 + i];
         break;
+      case spv::ExecutionMode::LocalSizeId:
+        if (inst.count != 6) return fail("LocalSizeId has not three sizes");
+        for (uint32_t i = 0; i < 3; ++i) {
+          const std::vector<uint32_t>* size = inst[3 + i] < m_.ids.size() ? constant_data(inst[3 + i]) : nullptr;
+          if (size == nullptr || size->size() != 1) return fail("LocalSizeId has a size that is no constant");
+          code_.workgroup_size[i] = size->front();
+        }
+        break;
       default:
         return fail(spirv_enum_name(SpirvEnum::ExecutionMode, static_cast<uint32_t>(mode.mode)) + " is not supported");
     }

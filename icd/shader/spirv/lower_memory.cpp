@@ -170,7 +170,8 @@ void Lowering::index_pointer(Pointer& to, uint32_t index_id) {
 
 std::vector<Reg> Lowering::load(const Pointer& from) {
   const uint64_t components = type(from.type).components;
-  if (components == 0 || components > kMaxValueComponents) {
+  const bool empty = components == 0 && type(from.type).kind != Kind::structure;
+  if (empty || components > kMaxValueComponents) {
     fail("loads what has no value of a sane size");
     return {};
   }

@@ -184,6 +184,7 @@ class Parser {
       case spv::Op::OpEntryPoint:
         return entry_point(inst);
       case spv::Op::OpExecutionMode:
+      case spv::Op::OpExecutionModeId:
         m_.modes.push_back({inst[1], static_cast<spv::ExecutionMode>(inst[2]), inst.word});
         return {};
       case spv::Op::OpDecorate:

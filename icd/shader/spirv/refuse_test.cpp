@@ -226,6 +226,29 @@ TEST(SpirvRefuse, AbsurdSizes) {
   });
 }
 
+TEST(SpirvRefuse, LocalSizeIdNamesConstants) {
+  const auto sized = [](uint32_t x) {
+    Assembler a;
+    a.version = 0x00010300;
+    a.add(a.globals, Op::OpConstant, {kUint, 20, 33});
+    std::vector<uint32_t> words = a.words();
+    for (size_t at = 5; at < words.size(); at += words[at] >> 16) {
+      if ((words[at] & 0xFFFF) != static_cast<uint32_t>(Op::OpExecutionMode)) continue;
+      words[at] = 6u << 16 | static_cast<uint32_t>(Op::OpExecutionModeId);
+      const uint32_t operands[] = {static_cast<uint32_t>(spv::ExecutionMode::LocalSizeId), x, kOne, kOne};
+      std::copy(std::begin(operands), std::end(operands), words.begin() + static_cast<std::ptrdiff_t>(at) + 2);
+    }
+    return words;
+  };
+  EXPECT_NE(outcome(sized(99)).find("LocalSizeId has a size that is no constant"), std::string::npos);
+  EXPECT_NE(outcome(sized(0xFFFFFFFF)).find("LocalSizeId has a size that is no constant"), std::string::npos);
+  const Result<std::shared_ptr<const SpirvModule>> module = parse_spirv(sized(20));
+  ASSERT_TRUE(module.ok()) << module.error().message;
+  const Result<Code> code = make_compute_code({*module, "main", {}}, {});
+  ASSERT_TRUE(code.ok()) << code.error().message;
+  EXPECT_EQ(code->invocations(), 33u);
+}
+
 TEST(SpirvRefuse, TooMuchSharedMemory) {
   const auto arrays = [](uint32_t length) {
     return outcome_of([&](Assembler& a) {
