@@ -13,7 +13,7 @@ import sys
 # Of the binary form, not of what a shader computes; the reader's own tests have them.
 STRUCTURE = {"OpNop", "OpSourceContinued", "OpSourceExtension", "OpString", "OpLine", "OpNoLine", "OpModuleProcessed",
              "OpDecorationGroup", "OpGroupDecorate", "OpGroupMemberDecorate", "OpDecorateId", "OpExtension",
-             "OpTypeForwardPointer"}
+             "OpTypeForwardPointer", "OpExecutionModeId"}
 
 
 def grammar(file):
