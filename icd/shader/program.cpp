@@ -167,7 +167,8 @@ struct Execution::State {
   uint64_t program_id = 0;  // that the memory is laid out for; 0: none
   const Program* program = nullptr;
   size_t frame_bytes = 0;
-  Frame* frame = nullptr;  // the first one
+  ComputeBatch batches[kMaxWorkgroupBatches];  // of the frames
+  Frame* frame = nullptr;                      // the first one
   BufferRange* buffers = nullptr;
   Run* entry = nullptr;
   SpreadScalars* spread = nullptr;
@@ -222,16 +223,16 @@ void Execution::run_workgroup(const uint32_t workgroup[3], const uint32_t num_wo
   if (state.once_is_due) state.run_once();
   const Code& code = state.program->source;
   std::memset(state.frame->shared, 0, code.shared_bytes);
-  ComputeBatch batches[kMaxWorkgroupBatches];
   const uint32_t invocations = code.invocations();
   for (uint32_t i = 0; i * kBatchLanes < invocations; ++i) {
-    ComputeBatch& batch = batches[i];
+    const uint32_t place = state.program->frames == 1 ? 0 : i;
+    ComputeBatch& batch = state.batches[place];
     std::copy_n(workgroup, 3, batch.workgroup);
     std::copy_n(num_workgroups, 3, batch.num_workgroups);
     batch.first_invocation = i * kBatchLanes;
     const uint32_t left = invocations - batch.first_invocation;
     const uint64_t lanes = left >= kBatchLanes ? ~uint64_t{0} : (uint64_t{1} << left) - 1;
-    Frame* const frame = state.frame_at(state.program->frames == 1 ? 0 : i);
+    Frame* const frame = state.frame_at(place);
     frame->invocations = &batch;
     state.start(frame, lanes, lanes);
   }
