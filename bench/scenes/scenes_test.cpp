@@ -66,7 +66,8 @@ TEST_P(BenchScene, ShowsSomething) {
   for (size_t i = 0; i < ours_.color.size(); i += 4) {
     colors.insert(uint32_t{ours_.color[i]} | uint32_t{ours_.color[i + 1]} << 8 | uint32_t{ours_.color[i + 2]} << 16);
   }
-  EXPECT_GE(colors.size(), GetParam().name == "clear" ? 1u : 20u);
+  const bool few = GetParam().name == "matmul" || GetParam().name == "histogram";  // results that are much alike
+  EXPECT_GE(colors.size(), GetParam().name == "clear" ? 1u : few ? 5u : 20u);
 }
 
 TEST_P(BenchScene, HasTheSameBitsWhateverTheThreads) {

@@ -138,7 +138,7 @@ SetupState make_setup_state(const DrawState& bound, const PixelRect& area) {
   const bool keep_front = (bound.raster.cull_mode & VK_CULL_MODE_FRONT_BIT) == 0;
   const bool keep_back = (bound.raster.cull_mode & VK_CULL_MODE_BACK_BIT) == 0;
   state.front_is_clockwise = bound.raster.front_face == VK_FRONT_FACE_CLOCKWISE;
-  const bool draws = !bound.raster.rasterizer_discard && bound.programs->fragment != nullptr;
+  const bool draws = !bound.raster.rasterizer_discard;
   state.keep_clockwise = draws && (state.front_is_clockwise ? keep_front : keep_back);
   state.keep_counterclockwise = draws && (state.front_is_clockwise ? keep_back : keep_front);
   state.depth_bias = bound.raster.depth_bias;
