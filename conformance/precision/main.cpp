@@ -119,7 +119,9 @@ int report(const Arguments& arguments) {
          "step by step, and ends where a step overflows); 1 is the limit. The bits are the\nsame on every machine: "
          "`lane_math_test` "
          "compares the SIMD targets.\n\n## One operand: "
-      << (arguments.stride == 1 ? "all 2^32 of them" : "every " + std::to_string(arguments.stride) + "th of 2^32 (all of them: `--stride 1`, an hour or more)")
+      << (arguments.stride == 1
+              ? "all 2^32 of them"
+              : "one in " + std::to_string(arguments.stride) + " of 2^32 (`--stride 1`: all, in hours)")
       << "\n\n";
   table(out, one, peer != nullptr);
   out << "\n## Several operands: special values in all pairs, any bits, moderate numbers\n\nWhere terms cancel, an "

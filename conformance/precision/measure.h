@@ -27,7 +27,8 @@ struct Measured {
   Worst special = {};     // 1 if one of them came out differently
 };
 
-// What counts: everything, or what the specification has a bound for and no denormal is part of (a driver may flush them).
+// What counts: everything, or what the specification has a bound for and no denormal is part of (a driver may flush
+// them).
 enum class Judge { everything, specified };
 
 // Every `stride`-th of the 2^32 operands, beginning with the smallest.
