@@ -70,7 +70,8 @@ int bench(const Arguments& arguments) {
   fs::create_directories(plan.pictures);
   if (arguments.quick) {
     plan.starts = 1;
-    plan.rounds = 3;
+    plan.rounds = 7;
+    plan.turn_ms = 50;
   }
   const bool everything = arguments.scenes.empty();
   Machine machine;

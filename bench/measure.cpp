@@ -85,6 +85,7 @@ void finish(Result& result, Taken& taken, const std::string& picture) {
   result.pipelines = run::median(taken.pipelines);
   result.first_frame = run::median(taken.first_frames);
   result.turns = taken.frames;
+  result.cpu_turns = taken.cpu;
   result.frame = calm_median(taken.frames, taken.disturbed);
   result.record = calm_median(taken.records, taken.disturbed);
   result.cpu = calm_median(taken.cpu, taken.disturbed);
@@ -119,9 +120,21 @@ double Series::best_peer(double Result::*value) const {
   return best;
 }
 
-double Series::ratio(double Result::*value) const {
-  const double ours = results.front().*value;
-  return results.front().absent.empty() && ours > 0 ? best_peer(value) / ours : 0;
+double Series::ratio(std::vector<double> Result::*turns) const {
+  if (!results.front().absent.empty()) return 0;
+  const std::vector<double>& ours = results.front().*turns;
+  double least = 0;
+  for (size_t i = 1; i < results.size(); ++i) {
+    const std::vector<double>& theirs = results[i].*turns;
+    std::vector<double> ratios;
+    for (size_t turn = 0; turn < std::min(ours.size(), theirs.size()); ++turn) {
+      if (ours[turn] > 0) ratios.push_back(theirs[turn] / ours[turn]);
+    }
+    if (!results[i].absent.empty() || ratios.empty()) continue;
+    const double ratio = run::median(ratios);
+    if (least == 0 || ratio < least) least = ratio;
+  }
+  return least;
 }
 
 std::string Series::size() const {

@@ -38,7 +38,7 @@ struct Result {
   double pipelines = 0;
   double first_frame = 0;                                 // recording and submission to fence, after the pipelines
   double resident_kb = 0, anonymous_kb = 0, peak_kb = 0;  // after the last frame
-  std::vector<double> turns;                              // the median frame of each turn
+  std::vector<double> turns, cpu_turns;                   // frame and CPU of each turn: its median frame, its mean CPU
   double others = 0;       // the median turn's share of all CPUs that other processes used
   double waited = 0;       // the median turn's share of the time that its own threads waited for a CPU
   bool disturbed = false;  // at least half of the turns were
@@ -57,8 +57,10 @@ struct Series {
 
   // The best of the others, 0 if there is none.
   double best_peer(double Result::*value) const;
-  // best_peer() over the first one's; 0 if either has nothing.
-  double ratio(double Result::*value = &Result::frame) const;
+  // How many times faster the first one is than the best of the others: the median over the rounds of turns of what the
+  // other took in the round over what the first took in it, since the speed of a shared machine changes from second to
+  // second. 0 if either has nothing. `turns`: frame or CPU.
+  double ratio(std::vector<double> Result::*turns = &Result::turns) const;
   std::string size() const;  // "1280x720"
 };
 

@@ -305,15 +305,15 @@ std::string heading(const std::vector<run::Driver>& drivers) {
 std::string line(const Series& series) {
   std::string text = format("%-13s %-9s", series.scene.c_str(), series.size().c_str());
   const Result& ours = series.results.front();
-  const auto columns = [&](double Result::*value) {
+  const auto columns = [&](double Result::*value, std::vector<double> Result::*turns) {
     for (const Result& result : series.results) {
       text += format(" %11s", result.absent.empty() ? number(result.*value, 3).c_str() : "-");
     }
-    text += format(" %7s", series.ratio(value) > 0 ? number(series.ratio(value), 2).c_str() : "-");
+    text += format(" %7s", series.ratio(turns) > 0 ? number(series.ratio(turns), 2).c_str() : "-");
   };
-  columns(&Result::frame);
+  columns(&Result::frame, &Result::turns);
   text += format(" %7s |    ", ours.absent.empty() ? number(ours.frame / series.limit.ms, 1).c_str() : "-");
-  columns(&Result::cpu);
+  columns(&Result::cpu, &Result::cpu_turns);
   double others = 0;
   for (const Result& result : series.results) others = std::max(others, result.others);
   const bool marked =

@@ -16,6 +16,8 @@ Result result_of(const char* driver, double frame) {
   result.device = driver;
   result.frame = frame;
   result.cpu = 2 * frame;
+  result.turns = {frame};
+  result.cpu_turns = {2 * frame};
   result.pipelines = frame;
   result.first_frame = frame / 2;
   return result;
@@ -51,6 +53,15 @@ TEST(Series, ComparesWithTheFasterPeer) {
   EXPECT_EQ(series.ratio(), 4.5);
   series.results[0].absent = "gone";
   EXPECT_EQ(series.ratio(), 0);
+}
+
+// The machine runs at half its speed in the second round: medians of the turns would compare one speed with the other.
+TEST(Series, ComparesTurnsOfTheSameRound) {
+  Series series = series_of("blend", 0, 0, 0, 1);
+  series.results[0].turns = {1, 2, 1, 2, 2};
+  series.results[1].turns = {4, 8, 4, 8, 8};
+  series.results[2].turns = {5, 10, 5, 5, 5};
+  EXPECT_EQ(series.ratio(), 4);
 }
 
 TEST(Goals, AreUnknownWithoutFigures) {
