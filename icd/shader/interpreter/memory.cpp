@@ -252,9 +252,9 @@ struct op_atomic {
       lanes.word[lane] = nullptr;
       if (((frame->exec & frame->write) >> lane & 1) == 0) continue;
       if (indices != nullptr) buffer = buffer_at(*frame, op->imm, indices[lane]);
-      const bool inside = uint64_t{addresses[lane]} + 4 <= buffer.size;
+      if (uint64_t{addresses[lane]} + 4 > buffer.size) continue;
       std::byte* const at = buffer.data + addresses[lane];
-      if (inside && reinterpret_cast<uintptr_t>(at) % 4 == 0) lanes.word[lane] = reinterpret_cast<uint32_t*>(at);
+      if (reinterpret_cast<uintptr_t>(at) % 4 == 0) lanes.word[lane] = reinterpret_cast<uint32_t*>(at);
     }
     change_lanes(static_cast<AtomicOp>(op->imm2), lanes);
     return op + 1;
