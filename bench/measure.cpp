@@ -112,14 +112,6 @@ std::vector<Contestant> contestants_of(const std::vector<run::Driver>& drivers, 
   return contestants;
 }
 
-double Series::best_peer(double Result::*value) const {
-  double best = 0;
-  for (size_t i = 1; i < results.size(); ++i) {
-    if (results[i].absent.empty() && (best == 0 || results[i].*value < best)) best = results[i].*value;
-  }
-  return best;
-}
-
 double Series::ratio(std::vector<double> Result::*turns) const {
   if (!results.front().absent.empty()) return 0;
   const std::vector<double>& ours = results.front().*turns;

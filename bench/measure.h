@@ -55,8 +55,6 @@ struct Series {
   Machine::Limit limit;
   std::vector<Result> results;  // in the order of the contestants
 
-  // The best of the others, 0 if there is none.
-  double best_peer(double Result::*value) const;
   // How many times faster the first one is than the best of the others: the median over the rounds of turns of what the
   // other took in the round over what the first took in it, since the speed of a shared machine changes from second to
   // second. 0 if either has nothing. `turns`: frame or CPU.

@@ -33,6 +33,13 @@ HWY_API void store_where(M m, F value, float* target) {
   store(all(m) ? value : select(m, value, load<F>(target)), target);
 }
 
+inline void copy_lanes(const float* source, uint64_t lanes, float* target) {
+  for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
+    const int first = vector * kVectorLanes;
+    store_where(mask_of(lanes, vector), load<F>(source + first), target + first);
+  }
+}
+
 template <size_t kFormat>
 struct LevelReader {
   using T = Texel<kFormat>;

@@ -89,13 +89,6 @@ uint64_t lanes_equal(const int32_t* values, int32_t value) {
   return word;
 }
 
-void copy_lanes(const float* source, uint64_t lanes, float* target) {
-  for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
-    const int first = vector * kVectorLanes;
-    store_where(mask_of(lanes, vector), load<F>(source + first), target + first);
-  }
-}
-
 void fill_lanes(F value, uint64_t lanes, float* target) {
   for (int vector = 0; vector < kVectorsPerBatch; ++vector) {
     store_where(mask_of(lanes, vector), value, target + vector * kVectorLanes);

@@ -10,6 +10,7 @@
 
 #include <array>
 
+#include "image/compare-inl.h"
 #include "image/sampling-inl.h"
 #include "image/texel.h"
 
@@ -100,27 +101,6 @@ inline HWY_NOINLINE void find_footprints(const LevelJob& job, bool linear, uint6
   }
 }
 
-HWY_API M compare_passes(VkCompareOp op, F reference, F depth) {
-  switch (op) {
-    case VK_COMPARE_OP_LESS:
-      return lt(reference, depth);
-    case VK_COMPARE_OP_EQUAL:
-      return eq(reference, depth);
-    case VK_COMPARE_OP_LESS_OR_EQUAL:
-      return le(reference, depth);
-    case VK_COMPARE_OP_GREATER:
-      return lt(depth, reference);
-    case VK_COMPARE_OP_NOT_EQUAL:
-      return ne(reference, depth);
-    case VK_COMPARE_OP_GREATER_OR_EQUAL:
-      return le(depth, reference);
-    case VK_COMPARE_OP_ALWAYS:
-      return all_lanes();
-    default:
-      return no_lanes();
-  }
-}
-
 // The texels of one tap as the filter sees them: the border outside, with a reference the result of the comparison.
 inline HWY_NOINLINE void read_tap(const LevelJob& job, const Footprints& where, int tap, uint64_t lanes,
                                   Registers& out) {
@@ -142,7 +122,7 @@ inline HWY_NOINLINE void read_tap(const LevelJob& job, const Footprints& where, 
   for (int i = 0; i < kLanes; i += kVectorLanes) {
     F reference = load<F>(job.reference + i);
     if (fixed_point) reference = clamp_or_low(reference, zero_f(), broadcast(1.0f));
-    const M passed = compare_passes(job.sampler->compare_op, reference, load<F>(out.lane[0] + i));
+    const M passed = compare_depth(static_cast<uint32_t>(job.sampler->compare_op), reference, load<F>(out.lane[0] + i));
     store(select(passed, broadcast(1.0f), zero_f()), out.lane[0] + i);
     store(zero_f(), out.lane[1] + i);
     store(zero_f(), out.lane[2] + i);
@@ -156,12 +136,7 @@ inline void general_nearest(const LevelJob& job, uint64_t lanes, float* const rg
   Registers texels;
   find_footprints(job, false, lanes, where);
   read_tap(job, where, 0, lanes, texels);
-  for (int c = 0; c < 4; ++c) {
-    for (int i = 0; i < kVectorsPerBatch; ++i) {
-      const int first = i * kVectorLanes;
-      store_where(mask_of(lanes, i), load<F>(texels.lane[c] + first), rgba[c] + first);
-    }
-  }
+  for (int c = 0; c < 4; ++c) copy_lanes(texels.lane[c], lanes, rgba[c]);
 }
 
 inline void general_linear(const LevelJob& job, uint64_t lanes, float* const rgba[4]) {

@@ -9,6 +9,7 @@
 #define HWY_TARGET_INCLUDE "raster/small_triangle.cpp"
 #include <hwy/foreach_target.h>
 
+#include "image/compare-inl.h"
 #include "shader/interpreter/planes-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -7,6 +7,7 @@
 #define HWY_TARGET_INCLUDE "shader/block_depth.cpp"
 #include <hwy/foreach_target.h>
 
+#include "image/compare-inl.h"
 #include "shader/interpreter/planes-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -8,6 +8,7 @@
 #define HWY_TARGET_INCLUDE "shader/interpreter/fragment.cpp"
 #include <hwy/foreach_target.h>
 
+#include "image/compare-inl.h"
 #include "image/texel.h"
 #include "shader/interpreter/handlers.h"
 #include "shader/interpreter/machine-inl.h"
@@ -272,27 +273,6 @@ struct op_interpolate_flat {
   }
 };
 
-M compare(uint32_t how, F z, F stored) {
-  switch (how) {
-    case 0:
-      return compare_depth<0>(z, stored);
-    case 1:
-      return compare_depth<1>(z, stored);
-    case 2:
-      return compare_depth<2>(z, stored);
-    case 3:
-      return compare_depth<3>(z, stored);
-    case 4:
-      return compare_depth<4>(z, stored);
-    case 5:
-      return compare_depth<5>(z, stored);
-    case 6:
-      return compare_depth<6>(z, stored);
-    default:
-      return compare_depth<7>(z, stored);
-  }
-}
-
 HWY_INLINE QuadPlaces places_of(const FragmentBatch& batch) { return {batch.quad_in_tile, batch.whole_block}; }
 
 struct op_depth_test {
@@ -305,7 +285,7 @@ struct op_depth_test {
     uint64_t passed = 0;
     for (int i = 0; i < kVectorsPerBatch; ++i) {
       const int at = i * kVectorLanes;
-      passed |= bits_of(compare(op->imm & 7, load<F>(z + at), load<F>(stored + at))) << at;
+      passed |= bits_of(compare_depth(op->imm & 7, load<F>(z + at), load<F>(stored + at))) << at;
     }
     frame->write &= passed;
     frame->exec = whole_quads(frame->write);

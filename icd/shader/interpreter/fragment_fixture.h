@@ -19,6 +19,10 @@ using Lanes = std::array<uint32_t, kBatchLanes>;
 inline float f(uint32_t bits) { return std::bit_cast<float>(bits); }
 inline uint32_t u(float value) { return std::bit_cast<uint32_t>(value); }
 
+inline Op operands(uint16_t dst, uint16_t a = 0, uint16_t b = 0, uint16_t c = 0, uint32_t imm = 0, uint32_t imm2 = 0) {
+  return Op{nullptr, dst, a, b, c, imm, imm2};
+}
+
 // Whose quads a batch has: of four triangles in turn or of one, at random even places or in one block; or the lanes of
 // a block have triangles of their own, each once or several times.
 enum class Quads { many_triangles, one_triangle, block, block_of_many, lanes, shared_by_lanes };

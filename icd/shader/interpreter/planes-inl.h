@@ -57,19 +57,6 @@ HWY_API F depth_at(D e1, D e2, const DepthPlane& plane) {
   return clamp_depth(to_float(z), plane);
 }
 
-// VkCompareOp of a fragment's depth and the stored one.
-template <int kCompare>
-HWY_API M compare_depth(F z, F stored) {
-  if constexpr (kCompare == 0) return no_lanes();  // NEVER
-  if constexpr (kCompare == 1) return lt(z, stored);
-  if constexpr (kCompare == 2) return eq(z, stored);
-  if constexpr (kCompare == 3) return le(z, stored);
-  if constexpr (kCompare == 4) return gt(z, stored);
-  if constexpr (kCompare == 5) return ne(z, stored);
-  if constexpr (kCompare == 6) return ge(z, stored);
-  return all_lanes();  // ALWAYS
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace lapilli
 HWY_AFTER_NAMESPACE();
