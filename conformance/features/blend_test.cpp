@@ -283,16 +283,7 @@ TEST(Blending, OrderOfOverlappingTrianglesInOneDraw) {
       want[c] = std::round((color[3] * color[c] + (1 - color[3]) * want[c]) * 255) / 255;
     }
   }
-  const samples::Buffer buffer(subject(), std::span<const Vertex>(vertices), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
-  VkCommandBuffer commands = subject().begin_commands();
-  canvas.begin(commands, {});
-  const VkBuffer vertex_buffer = buffer.get();
-  const VkDeviceSize offset = 0;
-  vkCmdBindVertexBuffers(commands, 0, 1, &vertex_buffer, &offset);
-  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());
-  vkCmdDraw(commands, uint32_t(vertices.size()), 1, 0, 0);
-  Canvas::end(commands);
-  subject().submit_and_wait(commands);
+  draw_vertices(canvas, pipeline, std::as_bytes(std::span(vertices)));
   const auto image = canvas.read_color<std::array<uint8_t, 4>>();
   for (const auto& p : image) {
     ASSERT_EQ(p, image[0]);

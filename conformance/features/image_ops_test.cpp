@@ -126,12 +126,7 @@ std::vector<Float4> run(const Scene& scene, const samples::Sampler& linear, cons
   const VkDescriptorSetLayout set_layout = descriptors.layout();
   const samples::PipelineLayout layout = create_layout(subject(), {&set_layout, 1});
   const samples::Pipeline pipeline = samples::create_compute_pipeline(subject(), shaders::kImageOpsComp, layout.get());
-  VkCommandBuffer commands = subject().begin_commands();
-  const VkDescriptorSet set = descriptors.get();
-  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
-  vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout.get(), 0, 1, &set, 0, nullptr);
-  vkCmdDispatch(commands, uint32_t(at.size() + 63) / 64, 1, 1);
-  subject().submit_and_wait(commands);
+  dispatch(subject(), pipeline, layout.get(), descriptors.get(), uint32_t(at.size() + 63) / 64);
   std::vector<Float4> result(at.size() * kResults);
   std::memcpy(result.data(), out.data(), result.size() * 16);
   return result;
@@ -249,19 +244,7 @@ std::vector<Float4> draw(const Scene& scene, const samples::Sampler& sampler, co
   const float end = 2 * texels * float(kPixels) / float(kSize);
   const std::vector<std::array<float, 8>> vertices = {
       {-1, -1, 0, 1, 0, 0, 0, 0}, {3, -1, 0, 1, end, 0, 0, 0}, {-1, 3, 0, 1, 0, end, 0, 0}};
-  const samples::Buffer buffer(subject(), std::span<const std::array<float, 8>>(vertices),
-                               VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
-  VkCommandBuffer commands = subject().begin_commands();
-  canvas.begin(commands, {});
-  const VkBuffer vertex_buffer = buffer.get();
-  const VkDeviceSize offset = 0;
-  const VkDescriptorSet set = descriptors.get();
-  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());
-  vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout.get(), 0, 1, &set, 0, nullptr);
-  vkCmdBindVertexBuffers(commands, 0, 1, &vertex_buffer, &offset);
-  vkCmdDraw(commands, 3, 1, 0, 0);
-  Canvas::end(commands);
-  subject().submit_and_wait(commands);
+  draw_vertices(canvas, pipeline, std::as_bytes(std::span(vertices)), layout.get(), descriptors.get());
   return canvas.read_color<Float4>();
 }
 

@@ -188,17 +188,7 @@ TEST(RenderPasses, DepthOnlyWithoutFragmentShader) {
   state.render_pass = canvas.render_pass();
   const samples::Pipeline pipeline = create_pipeline(subject(), state);
   const std::vector<std::array<float, 8>> vertices = {{-1, -1, 0.25f, 1}, {1, -1, 0.25f, 1}, {-1, 1, 0.25f, 1}};
-  const samples::Buffer buffer(subject(), std::span<const std::array<float, 8>>(vertices),
-                               VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
-  VkCommandBuffer commands = subject().begin_commands();
-  canvas.begin(commands, {}, 1);
-  const VkBuffer vertex_buffer = buffer.get();
-  const VkDeviceSize offset = 0;
-  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());
-  vkCmdBindVertexBuffers(commands, 0, 1, &vertex_buffer, &offset);
-  vkCmdDraw(commands, 3, 1, 0, 0);
-  Canvas::end(commands);
-  subject().submit_and_wait(commands);
+  draw_vertices(canvas, pipeline, std::as_bytes(std::span(vertices)));
   const auto depth = canvas.read_depth();
   for (uint32_t y = 0; y < 40; ++y) {
     for (uint32_t x = 0; x < 40; ++x) ASSERT_EQ(depth[y * 40 + x], x + y < 39 ? 0.25f : 1.0f) << x << "," << y;

@@ -73,12 +73,7 @@ std::vector<std::array<float, 4>> sample(const samples::Image& image, const samp
   const VkDescriptorSetLayout set_layout = descriptors.layout();
   const samples::PipelineLayout layout = create_layout(subject(), {&set_layout, 1});
   const samples::Pipeline pipeline = samples::create_compute_pipeline(subject(), shaders::kSampleComp, layout.get());
-  VkCommandBuffer commands = subject().begin_commands();
-  const VkDescriptorSet set = descriptors.get();
-  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
-  vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout.get(), 0, 1, &set, 0, nullptr);
-  vkCmdDispatch(commands, uint32_t(coordinates.size() + 63) / 64, 1, 1);
-  subject().submit_and_wait(commands);
+  dispatch(subject(), pipeline, layout.get(), descriptors.get(), uint32_t(coordinates.size() + 63) / 64);
   std::vector<std::array<float, 4>> result(coordinates.size());
   std::memcpy(result.data(), out.data(), result.size() * 16);
   return result;
@@ -193,12 +188,7 @@ TEST(Sampling, FetchAndSize) {
     const VkDescriptorSetLayout set_layout = descriptors.layout();
     const samples::PipelineLayout layout = create_layout(subject(), {&set_layout, 1});
     const samples::Pipeline pipeline = samples::create_compute_pipeline(subject(), shaders::kFetchComp, layout.get());
-    VkCommandBuffer commands = subject().begin_commands();
-    const VkDescriptorSet set = descriptors.get();
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout.get(), 0, 1, &set, 0, nullptr);
-    vkCmdDispatch(commands, 5, 3, 1);
-    subject().submit_and_wait(commands);
+    dispatch(subject(), pipeline, layout.get(), descriptors.get(), 5, 3);
     int32_t size[2];
     std::memcpy(size, out.data(), sizeof(size));
     EXPECT_EQ(size[0], 37);
@@ -232,19 +222,7 @@ TEST(Sampling, TexturedQuadInAFragmentShader) {
     const samples::Pipeline pipeline = create_pipeline(subject(), state);
     const std::vector<std::array<float, 8>> vertices = {
         {-1, -1, 0, 1, 0, 0, 0, 0}, {3, -1, 0, 1, 2 * zoom, 0, 0, 0}, {-1, 3, 0, 1, 0, 2 * zoom, 0, 0}};
-    const samples::Buffer buffer(subject(), std::span<const std::array<float, 8>>(vertices),
-                                 VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
-    VkCommandBuffer commands = subject().begin_commands();
-    canvas.begin(commands, {});
-    const VkBuffer vertex_buffer = buffer.get();
-    const VkDeviceSize offset = 0;
-    const VkDescriptorSet set = descriptors.get();
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout.get(), 0, 1, &set, 0, nullptr);
-    vkCmdBindVertexBuffers(commands, 0, 1, &vertex_buffer, &offset);
-    vkCmdDraw(commands, 3, 1, 0, 0);
-    Canvas::end(commands);
-    subject().submit_and_wait(commands);
+    draw_vertices(canvas, pipeline, std::as_bytes(std::span(vertices)), layout.get(), descriptors.get());
     const auto image = canvas.read_color<std::array<uint8_t, 4>>();
     for (int y = 0; y < 32; ++y) {
       for (int x = 0; x < 32; ++x) {

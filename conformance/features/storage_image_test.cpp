@@ -46,12 +46,7 @@ std::vector<uint32_t> run(const samples::Image& from, const samples::Image& to, 
       try_create_compute_pipeline(subject(), shaders::kStorageImageComp, layout.get(), &raw, &specialization),
       "vkCreateComputePipelines");
   const samples::Pipeline pipeline(subject().device(), raw);
-  VkCommandBuffer commands = subject().begin_commands();
-  const VkDescriptorSet set = descriptors.get();
-  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
-  vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout.get(), 0, 1, &set, 0, nullptr);
-  vkCmdDispatch(commands, kGroupsX, kGroupsY, 1);
-  subject().submit_and_wait(commands);
+  dispatch(subject(), pipeline, layout.get(), descriptors.get(), kGroupsX, kGroupsY);
   std::vector<uint32_t> words(out.size() / 4);
   std::memcpy(words.data(), out.data(), out.size());
   return words;
@@ -114,19 +109,7 @@ TEST(StorageImage, FragmentsWrite) {
       {-1, -1, 0, 1, 0.25f, 0, 0, 1}, {-1, 1, 0, 1, 0.25f, 0, 0, 1}, {1, 1, 0, 1, 0.25f, 0, 0, 1},
       {-1, -1, 0, 1, 0.5f, 0, 0, 1},  {-1, 1, 0, 1, 0.5f, 0, 0, 1},  {1, 1, 0, 1, 0.5f, 0, 0, 1},
       {-1, 0, 0, 1, 0.75f, 0, 0, 1},  {-1, 1, 0, 1, 0.75f, 0, 0, 1}, {0, 1, 0, 1, 0.75f, 0, 0, 1}};
-  const samples::Buffer buffer(subject(), std::span<const std::array<float, 8>>(vertices),
-                               VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
-  VkCommandBuffer commands = subject().begin_commands();
-  canvas.begin(commands, {});
-  const VkBuffer vertex_buffer = buffer.get();
-  const VkDeviceSize offset = 0;
-  const VkDescriptorSet set = descriptors.get();
-  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());
-  vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout.get(), 0, 1, &set, 0, nullptr);
-  vkCmdBindVertexBuffers(commands, 0, 1, &vertex_buffer, &offset);
-  vkCmdDraw(commands, 9, 1, 0, 0);
-  Canvas::end(commands);
-  subject().submit_and_wait(commands);
+  draw_vertices(canvas, pipeline, std::as_bytes(std::span(vertices)), layout.get(), descriptors.get());
   const auto drawn = canvas.read_color<uint32_t>();
   const auto texels = from_bytes<std::array<uint32_t, 4>>(download(subject(), image, 16));
   uint32_t covered = 0;

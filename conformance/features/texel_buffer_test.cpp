@@ -68,12 +68,7 @@ std::vector<uint32_t> run(const View& from, const View& to, int kind) {
   samples::check(try_create_compute_pipeline(subject(), shaders::kTexelBufferComp, layout.get(), &raw, &specialization),
                  "vkCreateComputePipelines");
   const samples::Pipeline pipeline(subject().device(), raw);
-  VkCommandBuffer commands = subject().begin_commands();
-  const VkDescriptorSet set = descriptors.get();
-  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
-  vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout.get(), 0, 1, &set, 0, nullptr);
-  vkCmdDispatch(commands, kGroups, 1, 1);
-  subject().submit_and_wait(commands);
+  dispatch(subject(), pipeline, layout.get(), descriptors.get(), kGroups);
   std::vector<uint32_t> words(out.size() / 4);
   std::memcpy(words.data(), out.data(), out.size());
   return words;

@@ -23,6 +23,7 @@ class Canvas {
  public:
   Canvas(const samples::Context& context, const CanvasOptions& options);
 
+  const samples::Context& context() const { return context_; }
   uint32_t width() const { return options_.width; }
   uint32_t height() const { return options_.height; }
   VkRenderPass render_pass() const { return render_pass_.get(); }

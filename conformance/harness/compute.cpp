@@ -73,4 +73,13 @@ std::vector<Bytes> run_compute(const samples::Context& context, const ComputeRun
   return out;
 }
 
+void dispatch(const samples::Context& context, const samples::Pipeline& pipeline, VkPipelineLayout layout,
+              VkDescriptorSet set, uint32_t groups_x, uint32_t groups_y) {
+  VkCommandBuffer commands = context.begin_commands();
+  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
+  vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, nullptr);
+  vkCmdDispatch(commands, groups_x, groups_y, 1);
+  context.submit_and_wait(commands);
+}
+
 }  // namespace lapilli::conformance

@@ -41,4 +41,8 @@ VkResult try_create_compute_pipeline(const samples::Context& context, std::span<
                                      const VkSpecializationInfo* specialization = nullptr,
                                      const char* entry_point = "main");
 
+// Runs the groups with one descriptor set, bound as set 0, and waits.
+void dispatch(const samples::Context& context, const samples::Pipeline& pipeline, VkPipelineLayout layout,
+              VkDescriptorSet set, uint32_t groups_x, uint32_t groups_y = 1);
+
 }  // namespace lapilli::conformance

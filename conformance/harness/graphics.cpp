@@ -113,4 +113,20 @@ samples::PipelineLayout create_layout(const Context& context, std::span<const Vk
   return samples::create_pipeline_layout(context, sets, {&range, push_bytes > 0 ? size_t(1) : size_t(0)});
 }
 
+void draw_vertices(const Canvas& canvas, const samples::Pipeline& pipeline, std::span<const std::byte> vertices,
+                   VkPipelineLayout layout, VkDescriptorSet set) {
+  const samples::Buffer buffer(canvas.context(), vertices, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+  const VkBuffer vertex_buffer = buffer.get();
+  const VkDeviceSize offset = 0;
+  VkCommandBuffer commands = canvas.context().begin_commands();
+  canvas.begin(commands, {});
+  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());
+  if (set != VK_NULL_HANDLE)
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1, &set, 0, nullptr);
+  vkCmdBindVertexBuffers(commands, 0, 1, &vertex_buffer, &offset);
+  vkCmdDraw(commands, uint32_t(vertices.size() / 32), 1, 0, 0);
+  Canvas::end(commands);
+  canvas.context().submit_and_wait(commands);
+}
+
 }  // namespace lapilli::conformance

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "common/resources.h"
+#include "harness/canvas.h"
 
 namespace lapilli::conformance {
 
@@ -51,5 +51,9 @@ samples::Pipeline create_pipeline(const Context& context, const PipelineState& s
 // A layout with the given sets and one range of push constants (bytes; 0: none) for all stages.
 samples::PipelineLayout create_layout(const Context& context, std::span<const VkDescriptorSetLayout> sets = {},
                                       uint32_t push_bytes = 0);
+
+// Draws all vertices, of the default layout (see PipelineState), on a cleared canvas and waits. `set`: bound as set 0.
+void draw_vertices(const Canvas& canvas, const samples::Pipeline& pipeline, std::span<const std::byte> vertices,
+                   VkPipelineLayout layout = VK_NULL_HANDLE, VkDescriptorSet set = VK_NULL_HANDLE);
 
 }  // namespace lapilli::conformance
