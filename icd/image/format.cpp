@@ -42,6 +42,7 @@ VkFormatProperties format_properties(VkFormat format) {
   const VkFormatFeatureFlags image = blit | add(kSampled, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT) |
                                      add(kFilterable, VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT) |
                                      add(kStorage, VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT) |
+                                     add(kAtomic, VK_FORMAT_FEATURE_STORAGE_IMAGE_ATOMIC_BIT) |
                                      add(kColorTarget, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT) |
                                      add(kBlendable, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) |
                                      add(kDepthTarget, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT);
@@ -50,7 +51,8 @@ VkFormatProperties format_properties(VkFormat format) {
   if (color) properties.linearTilingFeatures = image;
   properties.bufferFeatures = add(kVertex, VK_FORMAT_FEATURE_VERTEX_BUFFER_BIT) |
                               add(kTexelBuffer, VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT) |
-                              add(kStorageTexelBuffer, VK_FORMAT_FEATURE_STORAGE_TEXEL_BUFFER_BIT);
+                              add(kStorageTexelBuffer, VK_FORMAT_FEATURE_STORAGE_TEXEL_BUFFER_BIT) |
+                              add(kAtomic, VK_FORMAT_FEATURE_STORAGE_TEXEL_BUFFER_ATOMIC_BIT);
   return properties;
 }
 

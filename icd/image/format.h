@@ -31,6 +31,7 @@ enum FormatFeature : uint32_t {
   kStorage = 128,             // storage image
   kTexelBuffer = 256,         // uniform texel buffer
   kStorageTexelBuffer = 512,  // and a storage one
+  kAtomic = 1024,             // atomic operations on storage images and storage texel buffers
 };
 
 struct FormatInfo {

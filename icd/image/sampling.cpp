@@ -329,6 +329,10 @@ void fetch_2d(const TextureView* view, const FetchOperands& operands, float* con
   write_swizzled(*view, texels, operands.lanes, rgba);
 }
 
+uint64_t find_texels_2d(const TextureView& view, const FetchOperands& operands, uint32_t* byte_offsets) {
+  return texel_offsets(*view.format, view.levels[0], operands, operands.lanes, byte_offsets);
+}
+
 void store_2d(const TextureView* view, const FetchOperands& operands, const float* const rgba[4]) {
   if (view == nullptr || view->level_count == 0) return;
   const TexelFunctions& format = kTexelTable[view->format->index];
@@ -352,8 +356,8 @@ void size_2d(const TextureView* view, const int32_t* level, uint64_t lanes, int3
 }  // namespace
 
 extern const SamplingFunctions kSampling;
-const SamplingFunctions kSampling = {sample_2d,           fetch_2d, store_2d, gather_2d, query_lod_2d, size_2d,
-                                     lod_from_derivatives};
+const SamplingFunctions kSampling = {sample_2d, fetch_2d,     store_2d, find_texels_2d,
+                                     gather_2d, query_lod_2d, size_2d,  lod_from_derivatives};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lapilli

@@ -49,6 +49,8 @@ struct SamplingFunctions {
   void (*fetch_2d)(const TextureView* view, const FetchOperands& operands, float* const rgba[4]);
   // imageStore: nothing for coordinates outside of the view's first level, or for formats that are not stored.
   void (*store_2d)(const TextureView* view, const FetchOperands& operands, const float* const rgba[4]);
+  // Where the texels of the view's first level lie, in bytes from its first one; the lanes that have one.
+  uint64_t (*find_texels_2d)(const TextureView& view, const FetchOperands& operands, uint32_t* byte_offsets);
   // textureGather: component `component` (after the swizzle) of the four texels that a linear filter would read in the
   // first level: lower left, lower right, upper right, upper left.
   void (*gather_2d)(const TextureView* view, const SamplerState* sampler, const SampleOperands& operands,

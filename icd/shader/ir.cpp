@@ -15,6 +15,7 @@ ImmRoles imm_roles(Opcode opcode) {
     case Opcode::store_buffer:
       return {ImmRole::resource, ImmRole::bytes};
     case Opcode::atomic:
+    case Opcode::atomic_2d:
       return {ImmRole::resource, ImmRole::number};
     case Opcode::buffer_size:
       return {ImmRole::resource, ImmRole::none};
@@ -76,6 +77,8 @@ ImageList image_list(Opcode opcode) {
       return {5, 2};
     case Opcode::store_2d:
       return {8, 6};
+    case Opcode::atomic_2d:
+      return {6, 2};
     case Opcode::query_lod_2d:
       return {4, 2};
     case Opcode::size_2d:

@@ -203,7 +203,8 @@ class Verifier {
     if (uint64_t{instruction.list_first} + instruction.list_count > code_.operand_list.size()) {
       return fail_here("list outside the operand list");
     }
-    if (instruction.op == Opcode::atomic) return check_atomic(instruction);
+    if (instruction.op == Opcode::atomic) return check_atomic(instruction, 2);
+    if (instruction.op == Opcode::atomic_2d && !check_atomic(instruction, 4)) return false;
     const bool color = writes_color(instruction.op);
     const ImageList image = image_list(instruction.op);
     const uint32_t count = color ? 4 : image.count;
@@ -218,16 +219,18 @@ class Verifier {
     return true;
   }
 
-  // Address, descriptor, value, comparator.
-  bool check_atomic(const Instruction& instruction) {
-    if (instruction.list_count != 4) return fail_here("wrong length of the operand list");
+  // The list of `atomic`: address, descriptor; of `atomic_2d`: two descriptors, x, y; of both: value, comparator.
+  bool check_atomic(const Instruction& instruction, uint32_t value) {
+    if (instruction.list_count != value + 2) return fail_here("wrong length of the operand list");
     if (instruction.imm2 >= static_cast<uint32_t>(AtomicOp::kCount)) return fail_here("unknown atomic operation");
     const auto op = static_cast<AtomicOp>(instruction.imm2);
-    const bool needed[4] = {true, false, op != AtomicOp::load, op == AtomicOp::compare_exchange};
-    for (uint32_t i = 0; i < 4; ++i) {
+    for (uint32_t i = 0; i < instruction.list_count; ++i) {
+      const bool needed = i == value       ? op != AtomicOp::load
+                          : i == value + 1 ? op == AtomicOp::compare_exchange
+                                           : value == 2 && i == 0;
       const Reg reg = code_.operand_list[instruction.list_first + i];
       const char which = static_cast<char>('0' + i);
-      if (reg == kNoReg && needed[i]) return fail_operand(which, "is missing");
+      if (reg == kNoReg && needed) return fail_operand(which, "is missing");
       if (reg != kNoReg && !check_use(which, reg)) return false;
     }
     return true;

@@ -9,6 +9,7 @@
 #include <hwy/foreach_target.h>
 
 #include "image/sampling.h"
+#include "shader/interpreter/atomics-inl.h"
 #include "shader/interpreter/handlers.h"
 #include "shader/interpreter/machine-inl.h"
 
@@ -23,6 +24,12 @@ const uint32_t* list_operand(const Op* op, Frame* frame, uint32_t i) {
   return number == kNoOperand ? nullptr : reg_u(frame, number);
 }
 
+// The descriptor of the sampler; ops without one have the texture's again.
+template <class Body>
+const Descriptor& sampler_at(const Op* op, Frame* frame, uint32_t index) {
+  return descriptor_at(*frame, Body::kSampled ? op->imm2 : op->imm, index);
+}
+
 // Calls Body::run for each set of lanes that have the same descriptors; the other lanes become 0.
 template <class Body>
 struct ForEachImage {
@@ -31,7 +38,7 @@ struct ForEachImage {
     const uint32_t* const sampler = list_operand(op, frame, 1);
     clear_idle_lanes(frame, op->dst, Body::kResults);
     if (texture == nullptr && sampler == nullptr) {
-      Body::run(op, frame, descriptor_at(*frame, op->imm, 0), descriptor_at(*frame, op->imm2, 0), frame->exec);
+      Body::run(op, frame, descriptor_at(*frame, op->imm, 0), sampler_at<Body>(op, frame, 0), frame->exec);
       return op + 1;
     }
     uint32_t textures[kLanes] = {};
@@ -48,7 +55,7 @@ struct ForEachImage {
         if (same) lanes |= uint64_t{1} << lane;
       }
       Body::run(op, frame, descriptor_at(*frame, op->imm, textures[first]),
-                descriptor_at(*frame, op->imm2, samplers[first]), lanes);
+                sampler_at<Body>(op, frame, samplers[first]), lanes);
       rest &= ~lanes;
     }
     return op + 1;
@@ -84,6 +91,7 @@ SampleOperands sample_operands(const Op* op, Frame* frame, LodSource source, uin
 
 template <LodSource kSource>
 struct Sample {
+  static constexpr bool kSampled = true;
   static constexpr uint32_t kResults = 4;
   static void run(const Op* op, Frame* frame, const Descriptor& texture, const Descriptor& sampler, uint64_t lanes) {
     frame->sampling->sample_2d(texture.texture, sampler.sampler, sample_operands(op, frame, kSource, lanes),
@@ -92,6 +100,7 @@ struct Sample {
 };
 
 struct Gather {
+  static constexpr bool kSampled = true;
   static constexpr uint32_t kResults = 4;
   static void run(const Op* op, Frame* frame, const Descriptor& texture, const Descriptor& sampler, uint64_t lanes) {
     const uint32_t* const component = list_operand(op, frame, 4);
@@ -102,6 +111,7 @@ struct Gather {
 };
 
 struct QueryLod {
+  static constexpr bool kSampled = true;
   static constexpr uint32_t kResults = 2;
   static void run(const Op* op, Frame* frame, const Descriptor& texture, const Descriptor& sampler, uint64_t lanes) {
     SampleOperands operands;
@@ -115,6 +125,7 @@ struct QueryLod {
 };
 
 struct Fetch {
+  static constexpr bool kSampled = false;
   static constexpr uint32_t kResults = 4;
   static void run(const Op* op, Frame* frame, const Descriptor& texture, const Descriptor&, uint64_t lanes) {
     FetchOperands operands;
@@ -127,6 +138,7 @@ struct Fetch {
 };
 
 struct Store {
+  static constexpr bool kSampled = false;
   static constexpr uint32_t kResults = 0;
   static void run(const Op* op, Frame* frame, const Descriptor& texture, const Descriptor&, uint64_t lanes) {
     FetchOperands operands;
@@ -139,7 +151,38 @@ struct Store {
   }
 };
 
+struct Atomic {
+  static constexpr bool kSampled = false;
+  static constexpr uint32_t kResults = 1;
+  static void run(const Op* op, Frame* frame, const Descriptor& texture, const Descriptor&, uint64_t lanes) {
+    const TextureView* const view = texture.texture;
+    FetchOperands operands;
+    operands.x = int_operand(op, frame, 2);
+    operands.y = int_operand(op, frame, 3);
+    operands.lanes = lanes & frame->write;
+    alignas(64) uint32_t offsets[kLanes], old[kLanes];
+    uint64_t inside = 0;
+    if (view != nullptr && view->level_count != 0 && view->format->has(kAtomic))
+      inside = frame->sampling->find_texels_2d(*view, operands, offsets);
+    AtomicLanes words;
+    words.value = list_operand(op, frame, 4);
+    words.comparator = list_operand(op, frame, 5);
+    words.old = old;
+    words.shared = false;
+    for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
+      words.word[lane] = nullptr;
+      if ((inside >> lane & 1) == 0) continue;
+      std::byte* const at = view->levels[0].data + offsets[lane];
+      if (reinterpret_cast<uintptr_t>(at) % 4 == 0) words.word[lane] = reinterpret_cast<uint32_t*>(at);
+    }
+    change_lanes(static_cast<AtomicOp>(op->imm2), words);
+    uint32_t* const d = reg_out(frame, op->dst);
+    for (; lanes != 0; lanes &= lanes - 1) d[std::countr_zero(lanes)] = old[std::countr_zero(lanes)];
+  }
+};
+
 struct Size {
+  static constexpr bool kSampled = false;
   static constexpr uint32_t kResults = 3;
   static void run(const Op* op, Frame* frame, const Descriptor& texture, const Descriptor&, uint64_t lanes) {
     int32_t* const d = reinterpret_cast<int32_t*>(reg(frame, op->dst));
@@ -154,12 +197,13 @@ using op_gather_2d = ForEachImage<Gather>;
 using op_query_lod_2d = ForEachImage<QueryLod>;
 using op_fetch_2d = ForEachImage<Fetch>;
 using op_store_2d = ForEachImage<Store>;
+using op_atomic_2d = ForEachImage<Atomic>;
 using op_size_2d = ForEachImage<Size>;
 
 const HandlerEntry kEntries[] = {
     LAPILLI_FAT(sample_2d, false),    LAPILLI_FAT(sample_2d_lod, false), LAPILLI_FAT(gather_2d, false),
     LAPILLI_FAT(query_lod_2d, false), LAPILLI_FAT(fetch_2d, false),      LAPILLI_FAT(store_2d, false),
-    LAPILLI_FAT(size_2d, false),
+    LAPILLI_FAT(atomic_2d, true),     LAPILLI_FAT(size_2d, false),
 };
 
 }  // namespace

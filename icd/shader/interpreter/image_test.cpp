@@ -147,6 +147,45 @@ TEST(Op, store_2d) {
   }
 }
 
+// All lanes of a texture count on one texel, one after the other; other formats and texels outside have no words.
+TEST(Op, atomic_2d) {
+  for (SimdTarget target : supported_simd_targets()) {
+    ImageTest test(target);
+    test.views[0].format = find_format(VK_FORMAT_R32_UINT);
+    test.texels[0][3] = 100;
+    Lanes index, x, y, value;
+    for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
+      index[lane] = ImageTest::element(lane);
+      x[lane] = lane % 8 == 0 ? 2 : 1;
+      y[lane] = 1;
+      value[lane] = lane;
+    }
+    test.t.test.write(0, index);
+    test.t.test.write(1, x);
+    test.t.test.write(2, y);
+    test.t.test.write(3, value);
+    const uint16_t list[6] = {0, kNoOperand, 1, 2, 3, kNoOperand};
+    Frame& frame = test.t.test.frame();
+    frame.lists = list;
+    frame.write = 0x0FFFFFFFFFFFFFFF;
+    frame.exec = ~uint64_t{2};
+    const uint32_t other = test.texels[1][3];
+    Op op = operands(4);
+    op.imm2 = static_cast<uint32_t>(AtomicOp::add);
+    test.t.test.add(Opcode::atomic_2d, kStore, op);
+    test.t.test.run();
+    const Lanes old = test.t.result_of(4);
+    uint32_t expected = 100;
+    for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
+      const bool counts = lane != 1 && lane < 60 && ImageTest::element(lane) == 0 && lane % 8 != 0;
+      EXPECT_EQ(old[lane], counts ? expected : 0) << lane;
+      if (counts) expected += lane;
+    }
+    EXPECT_EQ(test.texels[0][3], expected);
+    EXPECT_EQ(test.texels[1][3], other);
+  }
+}
+
 TEST(Op, size_2d) {
   for (SimdTarget target : supported_simd_targets()) {
     ImageTest test(target);

@@ -39,6 +39,7 @@ Result<void> check_image(const SpirvModule& module, const SpirvInst& inst) {
 Result<void> check_pointer(const SpirvModule& module, const SpirvInst& inst) {
   switch (static_cast<spv::StorageClass>(inst[2])) {
     case spv::StorageClass::UniformConstant:
+    case spv::StorageClass::Image:
     case spv::StorageClass::Input:
     case spv::StorageClass::Uniform:
     case spv::StorageClass::Workgroup:

@@ -49,8 +49,9 @@ bool Lowering::lower_atomics(const SpirvInst& inst) {
   if (at == nullptr) return true;
   const Type& word = type(at->type);
   const bool moves = row->atomic == AtomicOp::load || row->atomic == AtomicOp::exchange;
-  if ((at->space != Space::buffer && at->space != Space::shared) || at->uniform)
-    return fail("works on buffers and shared memory only"), true;
+  const bool image = at->space == Space::texel;
+  if ((!image && at->space != Space::buffer && at->space != Space::shared) || at->uniform)
+    return fail("works on buffers, shared memory and images only"), true;
   if (!word.is_integer() && !(word.kind == Kind::real && moves)) return fail("is not supported for this type"), true;
   if (has_result && inst[1] != at->type) return fail("its type is not what the pointer points to"), true;
   for (const uint32_t operand : {row->value, row->comparator}) {
@@ -58,17 +59,20 @@ bool Lowering::lower_atomics(const SpirvInst& inst) {
       return fail("an operand has another type than what the pointer points to"), true;
   }
   const auto [resource, descriptor] = resource_of(*at);
-  const Reg offset = constant(at->offset);
-  std::array<Reg, 4> operands = {at->dynamic == kNoReg ? offset : emit(Opcode::iadd, at->dynamic, offset), descriptor,
-                                 kNoReg, kNoReg};
-  if (row->value != 0) operands[2] = scalar(inst[row->value]);
-  if (row->comparator != 0) operands[3] = scalar(inst[row->comparator]);
-  if (inst.op == spv::Op::OpAtomicIIncrement) operands[2] = constant(1);
-  if (inst.op == spv::Op::OpAtomicIDecrement) operands[2] = constant(~0u);
-  if (inst.op == spv::Op::OpAtomicISub) operands[2] = emit(Opcode::ineg, operands[2]);
-  if (word.kind == Kind::real && row->value != 0) operands[2] = canonical(operands[2]);
+  std::vector<Reg> operands = {descriptor, kNoReg, at->texel[0], at->texel[1]};
+  if (!image) {
+    const Reg offset = constant(at->offset);
+    operands = {at->dynamic == kNoReg ? offset : emit(Opcode::iadd, at->dynamic, offset), descriptor};
+  }
+  Reg value = row->value != 0 ? scalar(inst[row->value]) : kNoReg;
+  if (inst.op == spv::Op::OpAtomicIIncrement) value = constant(1);
+  if (inst.op == spv::Op::OpAtomicIDecrement) value = constant(~0u);
+  if (inst.op == spv::Op::OpAtomicISub) value = emit(Opcode::ineg, value);
+  if (word.kind == Kind::real && row->value != 0) value = canonical(value);
+  operands.push_back(value);
+  operands.push_back(row->comparator != 0 ? scalar(inst[row->comparator]) : kNoReg);
   if (failed()) return true;
-  Instruction& instruction = code_.append(Opcode::atomic, 1);
+  Instruction& instruction = code_.append(image ? Opcode::atomic_2d : Opcode::atomic, 1);
   instruction.imm = resource;
   instruction.imm2 = static_cast<uint32_t>(row->atomic);
   const Reg old = instruction.dst;

@@ -371,6 +371,7 @@ void Lowering::export_from_loop(uint32_t id) {
   value.regs = copies;
   value.pointer.dynamic = keep(value.pointer.dynamic);
   value.pointer.descriptor = keep(value.pointer.descriptor);
+  for (Reg& reg : value.pointer.texel) reg = keep(reg);
   frame_->loops[loop].exports.emplace_back(id, value);
 }
 

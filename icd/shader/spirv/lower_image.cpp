@@ -101,7 +101,7 @@ void Lowering::lower_sample(const SpirvInst& inst) {
   const SampleForm form = sample_form(inst.op);
   const Value* image = image_value(inst[3]);
   if (image == nullptr) return;
-  if (type_of(inst[3]).kind != Kind::sampled_image || dimension(inst[3]) != spv::Dim::Dim2D)
+  if (type_of(inst[3]).kind != Kind::sampled_image || dimension(type_of(inst[3])) != spv::Dim::Dim2D)
     return fail("its image has the wrong type");
   const std::span<const Reg> coordinate = data(inst[4]);
   if (coordinate.size() < (form.projective ? 3 : 2)) return fail("its coordinate has too few components");
@@ -161,7 +161,7 @@ void Lowering::lower_fetch(const SpirvInst& inst) {
   const Value* image = image_value(inst[3]);
   const bool fetch = inst.op == spv::Op::OpImageFetch;
   const ImageOperands given = read_image_operands(inst, 5, fetch ? kLod | kConstOffset | kOffset : 0);
-  const std::array<Reg, 2> texel = texel_coordinate(inst[3], inst[4]);
+  const std::array<Reg, 2> texel = texel_coordinate(type_of(inst[3]), inst[4]);
   if (failed()) return;
   if (given.lod != 0 && !type_of(given.lod).is_integer()) return fail("its level is no integer");
   Reg list[] = {texel[0], texel[1], given.lod != 0 ? scalar(given.lod) : kNoReg};
@@ -174,7 +174,7 @@ void Lowering::lower_fetch(const SpirvInst& inst) {
 void Lowering::lower_image_write(const SpirvInst& inst) {
   const Value* image = image_value(inst[1]);
   read_image_operands(inst, 4, 0);
-  const std::array<Reg, 2> texel = texel_coordinate(inst[1], inst[2]);
+  const std::array<Reg, 2> texel = texel_coordinate(type_of(inst[1]), inst[2]);
   const std::span<const Reg> value = data(inst[3]);
   if (failed()) return;
   if (value.size() > 4) return fail("its texel has too many components");
@@ -184,14 +184,33 @@ void Lowering::lower_image_write(const SpirvInst& inst) {
   out_.stores = true;
 }
 
+// What the atomic instructions take (lower_atomics.cpp).
+void Lowering::lower_texel_pointer(const SpirvInst& inst) {
+  const Pointer* image = pointer(inst[3]);
+  if (image == nullptr) return;
+  if (image->space != Space::handle || type(image->type).kind != Kind::image || type(inst[1]).kind != Kind::pointer ||
+      !type(type(inst[1]).element).is_integer())
+    return fail("points to no integer texel of an image");
+  Value value;
+  value.shape = Value::Shape::pointer;
+  value.pointer = *image;
+  value.pointer.space = Space::texel;
+  value.pointer.type = type(inst[1]).element;
+  value.pointer.texel = texel_coordinate(type(image->type), inst[4]);
+  if (!failed()) bind(inst[2], value);
+}
+
 // x and y of a texel of an image without a sampler; texel buffers are one row.
-std::array<Reg, 2> Lowering::texel_coordinate(uint32_t image, uint32_t id) {
+std::array<Reg, 2> Lowering::texel_coordinate(const Type& image, uint32_t id) {
   const std::span<const Reg> coordinate = data(id);
   if (failed()) return {};
+  if (image.kind != Kind::image) {
+    fail("its image has the wrong type");
+    return {};
+  }
   const size_t dimensions = dimension(image) == spv::Dim::Buffer ? 1 : 2;
-  if (type_of(image).kind != Kind::image) fail("its image has the wrong type");
-  if (coordinate.size() < dimensions) fail("its coordinate has too few components");
   const Kind kind = scalar_kind(type_of(id));
+  if (coordinate.size() < dimensions) fail("its coordinate has too few components");
   if (kind != Kind::sint && kind != Kind::uint) fail("its coordinate has the wrong type");
   if (failed()) return {};
   return {coordinate[0], dimensions == 2 ? coordinate[1] : constant(0)};
@@ -210,7 +229,7 @@ void Lowering::lower_image_query(const SpirvInst& inst) {
   if (inst.op == spv::Op::OpImageQuerySizeLod) level = scalar(inst[4]);
   if (failed()) return;
   const std::span<const Reg> size = emit_image(Opcode::size_2d, *image, {&level, 1});
-  const bool one_row = dimension(inst[3]) == spv::Dim::Buffer;
+  const bool one_row = dimension(type_of(inst[3])) == spv::Dim::Buffer;
   bind(inst[2], inst.op == spv::Op::OpImageQueryLevels ? size.last(1) : size.first(one_row ? 1 : 2));
 }
 
@@ -245,6 +264,9 @@ bool Lowering::lower_image(const SpirvInst& inst) {
     case spv::Op::OpImageFetch:
     case spv::Op::OpImageRead:
       lower_fetch(inst);
+      return true;
+    case spv::Op::OpImageTexelPointer:
+      lower_texel_pointer(inst);
       return true;
     case spv::Op::OpImageWrite:
       lower_image_write(inst);

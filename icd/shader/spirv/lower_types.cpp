@@ -82,9 +82,8 @@ Type Lowering::resolve(uint32_t id) {
   return t;
 }
 
-spv::Dim Lowering::dimension(uint32_t image) {
-  const Type& of = type_of(image);
-  return static_cast<spv::Dim>(m_.definition(of.kind == Kind::sampled_image ? of.element : of.id)[3]);
+spv::Dim Lowering::dimension(const Type& image) const {
+  return static_cast<spv::Dim>(m_.definition(image.kind == Kind::sampled_image ? image.element : image.id)[3]);
 }
 
 Kind Lowering::scalar_kind(const Type& of) {

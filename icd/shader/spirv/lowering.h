@@ -65,7 +65,7 @@ struct Variable {
   bool input = false;
 };
 
-enum class Space : uint8_t { none, registers, buffer, shared, push, handle };
+enum class Space : uint8_t { none, registers, buffer, shared, push, handle, texel };
 
 // What is known of a pointer while the program is made: all but `dynamic` and `descriptor`.
 struct Pointer {
@@ -81,7 +81,8 @@ struct Pointer {
   uint32_t component_stride = 4;  // bytes between a vector's components: MatrixStride in a row-major matrix
   uint32_t matrix_stride = 0;     // of the matrices below, from the member's decorations
   bool row_major = false;
-  bool uniform = false;  // a uniform block: constant in a draw
+  bool uniform = false;                         // a uniform block: constant in a draw
+  std::array<Reg, 2> texel = {kNoReg, kNoReg};  // texel of an image: x, y
 };
 
 struct Value {
@@ -137,7 +138,7 @@ class Lowering {
   const Type& type(uint32_t id);
   Type resolve(uint32_t id);
   const Type& type_of(uint32_t id) { return type(m_.ids[id].type); }
-  spv::Dim dimension(uint32_t image);  // of a value that is an image
+  spv::Dim dimension(const Type& image) const;  // of an image or a sampled image
   // The scalars' type and their number; kind none if it is no scalar or vector.
   Kind scalar_kind(const Type& type);
   // Type of the element `index` of a composite and the index of its first scalar; fails if there is none.
@@ -262,7 +263,8 @@ class Lowering {
   void lower_sample(const SpirvInst& inst);
   void lower_fetch(const SpirvInst& inst);
   void lower_image_write(const SpirvInst& inst);
-  std::array<Reg, 2> texel_coordinate(uint32_t image, uint32_t id);
+  void lower_texel_pointer(const SpirvInst& inst);
+  std::array<Reg, 2> texel_coordinate(const Type& image, uint32_t id);
   void lower_image_query(const SpirvInst& inst);
   Reg gradient_lod(const Value& image, std::span<const Reg> dx, std::span<const Reg> dy);
   std::span<const Reg> emit_image(Opcode op, const Value& image, std::span<const Reg> operands);
