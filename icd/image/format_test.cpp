@@ -145,5 +145,16 @@ TEST(Format, StorageFormatsOfTheSpecificationAreOffered) {
   }
 }
 
+TEST(Format, PackedBytesAreThoseOfTheUnpackedFormat) {
+  const std::pair<VkFormat, VkFormat> pairs[] = {{VK_FORMAT_A8B8G8R8_UNORM_PACK32, VK_FORMAT_R8G8B8A8_UNORM},
+                                                 {VK_FORMAT_A8B8G8R8_SNORM_PACK32, VK_FORMAT_R8G8B8A8_SNORM},
+                                                 {VK_FORMAT_A8B8G8R8_UINT_PACK32, VK_FORMAT_R8G8B8A8_UINT},
+                                                 {VK_FORMAT_A8B8G8R8_SINT_PACK32, VK_FORMAT_R8G8B8A8_SINT}};
+  for (const auto& [packed, bytes] : pairs) {
+    EXPECT_EQ(find_format(packed)->components, find_format(bytes)->components);
+    EXPECT_NE(format_properties(packed).bufferFeatures & VK_FORMAT_FEATURE_STORAGE_TEXEL_BUFFER_BIT, 0u);
+  }
+}
+
 }  // namespace
 }  // namespace lapilli
