@@ -35,7 +35,9 @@ Descriptors::Descriptors(const samples::Context& context, std::span<const Descri
   allocate.descriptorSetCount = 1;
   allocate.pSetLayouts = &raw_layout;
   samples::check(vkAllocateDescriptorSets(context.device(), &allocate, &set_), "vkAllocateDescriptorSets");
-  for (const DescriptorSlot& s : slots) write(s);
+  for (const DescriptorSlot& s : slots) {
+    if (s.written) write(s);
+  }
 }
 
 void Descriptors::write(const DescriptorSlot& slot) const {

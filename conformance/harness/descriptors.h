@@ -15,6 +15,7 @@ struct DescriptorSlot {
   VkDescriptorImageInfo image = {};
   VkBufferView view = VK_NULL_HANDLE;
   uint32_t element = 0;  // of the array; in order
+  bool written = true;
 };
 
 // One set; all stages see it.

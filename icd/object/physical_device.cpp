@@ -71,7 +71,9 @@ VkPhysicalDeviceFeatures device_features() {
   features.shaderStorageImageExtendedFormats = VK_TRUE;
   features.shaderStorageImageReadWithoutFormat = VK_TRUE;
   features.shaderStorageImageWriteWithoutFormat = VK_TRUE;
+  features.shaderUniformBufferArrayDynamicIndexing = VK_TRUE;
   features.shaderSampledImageArrayDynamicIndexing = VK_TRUE;
+  features.shaderStorageBufferArrayDynamicIndexing = VK_TRUE;
   features.shaderStorageImageArrayDynamicIndexing = VK_TRUE;
   return features;
 }

@@ -249,6 +249,28 @@ TEST(SpirvRefuse, LocalSizeIdNamesConstants) {
   EXPECT_EQ(code->invocations(), 33u);
 }
 
+TEST(SpirvRefuse, TexelPointers) {
+  EXPECT_REFUSED("points to no integer texel", {
+    a.add(a.globals, Op::OpTypeImage, {20, kFloat, 1, 0, 0, 0, 2, 3});
+    a.add(a.globals, Op::OpTypePointer, {21, 0, 20});
+    a.add(a.globals, Op::OpVariable, {21, 22, 0});
+    a.add(a.globals, Op::OpTypePointer, {23, static_cast<uint32_t>(spv::StorageClass::Image), kFloat});
+    a.add(a.body, Op::OpImageTexelPointer, {23, 24, 22, kOne, kOne});
+  });
+}
+
+TEST(SpirvRefuse, UndefinedPointersThatAreUsed) {
+  const auto undefined = [](bool used) {
+    return outcome_of([&](Assembler& a) {
+      a.add(a.globals, Op::OpTypePointer, {20, static_cast<uint32_t>(spv::StorageClass::Function), kUint});
+      a.add(a.body, Op::OpUndef, {20, 21});
+      if (used) a.add(a.body, Op::OpLoad, {kUint, 22, 21});
+    });
+  };
+  EXPECT_EQ(undefined(false), "");
+  EXPECT_NE(undefined(true), "");
+}
+
 TEST(SpirvRefuse, TooMuchSharedMemory) {
   const auto arrays = [](uint32_t length) {
     return outcome_of([&](Assembler& a) {
