@@ -7,6 +7,7 @@
 #include <random>
 
 #include "harness/canvas.h"
+#include "harness/compute.h"
 #include "harness/descriptors.h"
 #include "harness/devices.h"
 #include "harness/graphics.h"
@@ -15,6 +16,7 @@
 #include "shaders/flat_color.frag.h"
 #include "shaders/formats.vert.h"
 #include "shaders/instances.vert.h"
+#include "shaders/storage_class.comp.h"
 
 namespace lapilli::conformance {
 namespace {
@@ -143,6 +145,21 @@ TEST(Buffers, UniformStorageDynamicOffsetsAndPushConstants) {
 }
 
 // R32, R32G32, R32G32B32 and R32G32B32A32 from two bindings with odd strides; missing components are 0, 0, 1.
+// VK_KHR_storage_buffer_storage_class and VK_KHR_relaxed_block_layout.
+TEST(Buffers, StorageClassOfTheirOwnAndRelaxedLayout) {
+  constexpr uint32_t kElements = 64, kWords = 8;
+  std::vector<uint32_t> in, want;
+  for (uint32_t i = 0; i < kElements; ++i) {
+    const uint32_t n = 1000 * (i + 1);
+    in.insert(in.end(), {n, n + 1, n + 2, n + 3, 0, n + 4, n + 5, 0});  // words
+    want.insert(want.end(), {n + 5, n + 4, n + 3, n + 2, 7, n + 1, n, 7});
+  }
+  const std::vector<uint32_t> sevens(kElements * kWords, 7);
+  const std::vector<Bytes> after =
+      run_compute(subject(), {.shader = shaders::kStorageClassComp, .buffers = {to_bytes(in), to_bytes(sevens)}});
+  EXPECT_EQ(from_bytes<uint32_t>(after[1]), want);
+}
+
 TEST(VertexInput, FloatFormatsStridesAndMissingComponents) {
   std::mt19937 random(1);
   const samples::Context& c = subject();

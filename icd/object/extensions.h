@@ -21,6 +21,11 @@ inline constexpr std::array kExtensions = {
     ExtensionInfo{VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_DEBUG_UTILS_SPEC_VERSION, ExtensionLevel::instance},
     ExtensionInfo{VK_KHR_GET_PHYSICAL_DEVICE_PROPERTIES_2_EXTENSION_NAME,
                   VK_KHR_GET_PHYSICAL_DEVICE_PROPERTIES_2_SPEC_VERSION, ExtensionLevel::instance},
+    // What the reader takes anyway: a storage class, offsets of vectors that are aligned to their components.
+    ExtensionInfo{VK_KHR_RELAXED_BLOCK_LAYOUT_EXTENSION_NAME, VK_KHR_RELAXED_BLOCK_LAYOUT_SPEC_VERSION,
+                  ExtensionLevel::device},
+    ExtensionInfo{VK_KHR_STORAGE_BUFFER_STORAGE_CLASS_EXTENSION_NAME, VK_KHR_STORAGE_BUFFER_STORAGE_CLASS_SPEC_VERSION,
+                  ExtensionLevel::device},
     ExtensionInfo{VK_KHR_SAMPLER_MIRROR_CLAMP_TO_EDGE_EXTENSION_NAME, VK_KHR_SAMPLER_MIRROR_CLAMP_TO_EDGE_SPEC_VERSION,
                   ExtensionLevel::device},
 };
