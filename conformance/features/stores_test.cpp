@@ -5,6 +5,7 @@
 #include "harness/descriptors.h"
 #include "shaders/stores.frag.h"
 #include "shaders/stores.vert.h"
+#include "shaders/stores_chained.vert.h"
 
 namespace lapilli::conformance {
 namespace {
@@ -17,6 +18,7 @@ struct StoreRun {
   bool depth = false;
   uint32_t draws = 1, instances = 1;
   std::optional<VkRect2D> scissor = std::nullopt;
+  bool chained = false;  // stores_chained.vert, with barriers between the draws
 };
 struct Counts {
   uint32_t vertices, fragments, helpers;
@@ -35,7 +37,7 @@ class Stores : public testing::Test {
   static Counts draw(const StoreRun& run, std::span<const ColoredVertex> vertices) {
     const Context& c = subject();
     const Canvas canvas(c, {.width = kSize, .height = kSize, .depth = run.depth});
-    const std::vector<uint32_t> zeros(3 + kVertices), no_pixels(2 * kSize * kSize);
+    const std::vector<uint32_t> zeros(3 + 2 * kVertices), no_pixels(2 * kSize * kSize);
     const samples::Buffer counts(c, std::span<const uint32_t>(zeros), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     const samples::Buffer pixels(c, std::span<const uint32_t>(no_pixels), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     const samples::Buffer buffer(c, vertices, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
@@ -45,7 +47,11 @@ class Stores : public testing::Test {
     const VkDescriptorSetLayout set_layout = descriptors.layout();
     const samples::PipelineLayout layout = create_layout(c, {&set_layout, 1});
     PipelineState state;
-    state.vertex_shader = shaders::kStoresVert;
+    if (run.chained) {
+      state.vertex_shader = shaders::kStoresChainedVert;
+    } else {
+      state.vertex_shader = shaders::kStoresVert;
+    }
     state.fragment_shader = shaders::kStoresFrag;
     state.rasterizer_discard = run.discard;
     state.depth_test = state.depth_write = run.depth;
@@ -61,7 +67,10 @@ class Stores : public testing::Test {
     const VkBuffer vertex_buffer = buffer.get();
     const VkDeviceSize offset = 0;
     vkCmdBindVertexBuffers(commands, 0, 1, &vertex_buffer, &offset);
-    for (uint32_t i = 0; i < run.draws; ++i) vkCmdDraw(commands, uint32_t(vertices.size()), run.instances, 0, 0);
+    for (uint32_t i = 0; i < run.draws; ++i) {
+      if (run.chained && i > 0) order_vertices(commands);
+      vkCmdDraw(commands, uint32_t(vertices.size()), run.instances, 0, run.chained ? i : 0);
+    }
     Canvas::end(commands);
     c.submit_and_wait(commands);
     const auto* words = static_cast<const uint32_t*>(counts.data());
@@ -71,6 +80,14 @@ class Stores : public testing::Test {
             words[2],
             {words + 3, words + 3 + vertices.size()},
             {of_pixels, of_pixels + 2 * kSize * kSize}};
+  }
+
+  // By the self-dependency of Canvas.
+  static void order_vertices(VkCommandBuffer commands) {
+    constexpr VkAccessFlags kStores = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
+    constexpr VkPipelineStageFlags kVertexShader = VK_PIPELINE_STAGE_VERTEX_SHADER_BIT;
+    const VkMemoryBarrier barrier = {VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, kStores, kStores};
+    vkCmdPipelineBarrier(commands, kVertexShader, kVertexShader, 0, 1, &barrier, 0, nullptr, 0, nullptr);
   }
 
   // Rectangles of 7 x 5 pixels, which share edges and cut quads.
@@ -122,6 +139,20 @@ TEST_F(Stores, VerticesOfWhatDrawsNothing) {
     for (const uint32_t count : counts.vertex) EXPECT_EQ(count, 1u);
     expect_pixels(counts, 0, 0, 0);
   }
+}
+
+// A barrier within the render pass: each draw's vertices read what those of the draw before have stored.
+TEST_F(Stores, VerticesAfterABarrier) {
+  constexpr uint32_t kDraws = 21;
+  const Counts counts = draw({.draws = kDraws, .chained = true}, rectangles(kVertices / 6, 0.5f));
+  std::vector<uint32_t> want(kVertices), before(kVertices);
+  for (uint32_t i = 0; i < kVertices; ++i) want[i] = i * 3 + 1;
+  for (uint32_t d = 1; d < kDraws; ++d) {
+    std::swap(want, before);
+    for (uint32_t i = 0; i < kVertices; ++i) want[i] = before[kVertices - 1 - i] * 3 + 1;
+  }
+  EXPECT_EQ(counts.vertex, want);
+  EXPECT_EQ(counts.fragments, kDraws * kVertices / 6 * 35);
 }
 
 }  // namespace

@@ -82,8 +82,11 @@ void Canvas::create_render_pass() {
   constexpr VkPipelineStageFlags kEverything = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
   constexpr VkPipelineStageFlags kGraphics = VK_PIPELINE_STAGE_ALL_GRAPHICS_BIT;
   constexpr VkAccessFlags kAllAccess = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
-  const std::array<VkSubpassDependency, 2> dependencies = {
+  constexpr VkPipelineStageFlags kVertices = VK_PIPELINE_STAGE_VERTEX_SHADER_BIT;
+  constexpr VkAccessFlags kStores = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
+  const std::array<VkSubpassDependency, 3> dependencies = {
       {{VK_SUBPASS_EXTERNAL, 0, kEverything, kGraphics, kAllAccess, kAllAccess, 0},
+       {0, 0, kVertices, kVertices, kStores, kStores, 0},
        {0, VK_SUBPASS_EXTERNAL, kGraphics, kEverything, kAllAccess, kAllAccess, 0}}};
   VkRenderPassCreateInfo info = {};
   info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO;

@@ -72,10 +72,11 @@ VKAPI_ATTR void VKAPI_CALL vkCmdWaitEvents(VkCommandBuffer commands, uint32_t co
   record_wait_events(*CommandBuffer::from(commands), list(events, count));
 }
 
-// The queue executes one command after the other, memory is coherent, and layouts do not change how an image lies in
-// memory: every barrier is already kept.
-VKAPI_ATTR void VKAPI_CALL vkCmdPipelineBarrier(VkCommandBuffer, VkPipelineStageFlags, VkPipelineStageFlags,
-                                                VkDependencyFlags, uint32_t, const VkMemoryBarrier*, uint32_t,
-                                                const VkBufferMemoryBarrier*, uint32_t, const VkImageMemoryBarrier*) {}
+VKAPI_ATTR void VKAPI_CALL vkCmdPipelineBarrier(VkCommandBuffer commands, VkPipelineStageFlags from,
+                                                VkPipelineStageFlags to, VkDependencyFlags, uint32_t,
+                                                const VkMemoryBarrier*, uint32_t, const VkBufferMemoryBarrier*,
+                                                uint32_t, const VkImageMemoryBarrier*) {
+  record_barrier(*CommandBuffer::from(commands), from, to);
+}
 
 }  // namespace lapilli::entry

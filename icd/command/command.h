@@ -40,6 +40,7 @@ enum class CommandKind : uint32_t {
   kEndRenderPass,
   kExecuteCommands,
   // sync_commands.h
+  kVertexBarrier,
   kSetEvent,
   kWaitEvents,
   kResetQueryPool,

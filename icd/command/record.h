@@ -63,6 +63,7 @@ void record_end_render_pass(CommandBuffer& commands);
 void record_execute_commands(CommandBuffer& commands, std::span<const VkCommandBuffer> buffers);
 
 // record_sync.cpp
+void record_barrier(CommandBuffer& commands, VkPipelineStageFlags from, VkPipelineStageFlags to);
 void record_set_event(CommandBuffer& commands, Event* event, bool signaled);
 void record_wait_events(CommandBuffer& commands, std::span<const VkEvent> events);
 void record_reset_query_pool(CommandBuffer& commands, QueryPool* pool, uint32_t first, uint32_t count);

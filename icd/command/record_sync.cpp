@@ -1,9 +1,19 @@
-// Recording of events, queries and labels.
+// Recording of barriers, events, queries and labels.
 #include <cstring>
 
 #include "command/record.h"
 
 namespace lapilli {
+
+// Memory is coherent, layouts do not change how an image lies in memory, and the queue executes one command after the
+// other: every barrier is already kept, but for those between the vertices of a render pass, all of which are run at
+// once. (Fragments come in the order of their draws, pixel by pixel: that is all a barrier between them may ask for.)
+void record_barrier(CommandBuffer& commands, VkPipelineStageFlags from, VkPipelineStageFlags to) {
+  constexpr VkPipelineStageFlags kVertices = VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_INPUT_BIT |
+                                             VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_ALL_GRAPHICS_BIT |
+                                             VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+  if ((from & kVertices) != 0 && (to & kVertices) != 0) commands.record<cmd::VertexBarrier>();
+}
 
 void record_set_event(CommandBuffer& commands, Event* event, bool signaled) {
   auto& command = commands.record<cmd::SetEvent>();

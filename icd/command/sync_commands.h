@@ -1,4 +1,4 @@
-// Events, queries and labels. Barriers leave nothing behind: the queue runs its commands in order.
+// Events, queries, labels, and the only barriers that matter: the queue runs its commands in order but for draws.
 // Specification: chapters "Synchronization and Cache Control", "Queries", "Debugging".
 #pragma once
 
@@ -10,6 +10,9 @@
 #include "object/sync.h"
 
 namespace lapilli::cmd {
+
+// What comes after it reads in vertex shaders what vertex shaders before it have stored.
+struct VertexBarrier : CommandOf<CommandKind::kVertexBarrier> {};
 
 struct SetEvent : CommandOf<CommandKind::kSetEvent> {
   Event* event = nullptr;

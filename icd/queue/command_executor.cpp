@@ -82,6 +82,8 @@ void execute_one(CommandExecutor& executor, const Command& command) {
       return execute_as<cmd::EndRenderPass>(executor, command);
     case CommandKind::kExecuteCommands:
       return execute_secondaries(executor, static_cast<const cmd::ExecuteCommands&>(command));
+    case CommandKind::kVertexBarrier:
+      return execute_as<cmd::VertexBarrier>(executor, command);
     case CommandKind::kSetEvent:
       return execute_as<cmd::SetEvent>(executor, command);
     case CommandKind::kWaitEvents:

@@ -75,6 +75,7 @@ void execute(CommandExecutor& executor, const cmd::BeginRenderPass& command);
 void execute(CommandExecutor& executor, const cmd::NextSubpass& command);
 void execute(CommandExecutor& executor, const cmd::EndRenderPass& command);
 // execute_sync.cpp
+void execute(CommandExecutor& executor, const cmd::VertexBarrier& command);
 void execute(CommandExecutor& executor, const cmd::SetEvent& command);
 void execute(CommandExecutor& executor, const cmd::WaitEvents& command);
 void execute(CommandExecutor& executor, const cmd::ResetQueryPool& command);

@@ -1,9 +1,14 @@
-// Events, queries and labels. Specification: chapters "Synchronization and Cache Control", "Queries", "Debugging".
+// Barriers, events, queries and labels.
+// Specification: chapters "Synchronization and Cache Control", "Queries", "Debugging".
 #include <algorithm>
 
 #include "queue/command_executor.h"
 
 namespace lapilli {
+
+void execute(CommandExecutor& executor, const cmd::VertexBarrier&) {
+  if (executor.pass.pass != nullptr && !executor.pass.draws.empty()) flush_pass(executor, false);
+}
 
 void execute(CommandExecutor& executor, const cmd::SetEvent& command) {
   set_signaled(executor.device, *command.event, command.signaled);
