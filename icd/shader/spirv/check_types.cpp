@@ -54,7 +54,10 @@ Result<void> check_pointer(const SpirvModule& module, const SpirvInst& inst) {
                           "storage class " + spirv_enum_name(SpirvEnum::StorageClass, inst[2]) + " is not supported");
   }
   const spv::Op to = module.op(inst[3]);
-  if (is_member(to) || is_handle(to) || to == spv::Op::OpTypeRuntimeArray) return {};
+  // Compilers leave pointers to nothing and to pointers behind; there can be no variable for them.
+  if (is_member(to) || is_handle(to) || to == spv::Op::OpTypeRuntimeArray || to == spv::Op::OpTypeVoid ||
+      to == spv::Op::OpTypePointer)
+    return {};
   return module.error(inst.word, "points to what has no value");
 }
 

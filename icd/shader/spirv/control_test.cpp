@@ -1,6 +1,7 @@
 // Divergent control flow, run in the interpreter and compared with the same code in C++.
 #include "shader/spirv/test/run_shader.h"
 #include "shaders/control.comp.h"
+#include "shaders/exits.comp.h"
 #include "shaders/phis.comp.h"
 
 namespace lapilli {
@@ -124,6 +125,13 @@ TEST(SpirvControl, PhisMatchScalarCode) {
     EXPECT_EQ(got[3], (n & 3) == 2 ? 5u : 0u) << n;
     EXPECT_EQ(got[4], vector[n & 3]) << n;
   }
+}
+
+TEST(SpirvControl, PhiBehindALoop) {
+  ComputeRun run;
+  const uint32_t* const results = run.buffer<uint32_t>(0, kInvocations);
+  run.run(shaders::kExitsComp, kInvocations / kBatchLanes);
+  for (uint32_t n = 0; n < kInvocations; ++n) EXPECT_EQ(results[n], (n & 7) * (n & 7)) << n;
 }
 
 }  // namespace

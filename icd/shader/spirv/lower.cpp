@@ -195,7 +195,7 @@ void Lowering::lower_body_instruction(const SpirvInst& inst) {
       const uint64_t count = result.components;
       if (result.is_handle() || result.kind == Kind::pointer || result.kind == Kind::runtime_array)
         return;  // no value: who uses it is refused
-      if (count == 0 || count > kMaxValueComponents) return fail("has no value of a sane size");
+      if (!result.has_value() || count > kMaxValueComponents) return fail("has no value of a sane size");
       return bind(inst[2], std::vector<Reg>(static_cast<size_t>(count), constant(0)));
     }
     case spv::Op::OpCopyObject: {

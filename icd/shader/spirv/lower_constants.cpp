@@ -128,7 +128,7 @@ void Lowering::evaluate_constant(const SpirvInst& inst) {
   const Type& result = type(inst[1]);
   // No value: who uses it is refused.
   if (inst.op == spv::Op::OpUndef && (result.is_handle() || result.kind == Kind::runtime_array)) return;
-  if (result.components == 0 || result.components > kMaxValueComponents) return fail("has no value of a sane size");
+  if (!result.has_value() || result.components > kMaxValueComponents) return fail("has no value of a sane size");
   constant_words_ += static_cast<size_t>(result.components);
   if (constant_words_ > kMaxConstantWords) return fail("the constants are too many");
   std::vector<uint32_t> bits;

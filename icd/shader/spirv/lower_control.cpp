@@ -28,7 +28,7 @@ void Lowering::lower_call(const SpirvInst& inst) {
   frame_ = caller;
   line_ = line;
   word_ = inst.word;
-  if (type(inst[1]).components != 0 && !failed()) bind(inst[2], returned);
+  if (type(inst[1]).has_value() && !failed()) bind(inst[2], returned);
 }
 
 std::span<const Reg> Lowering::lower_function(const SpirvFunction& function) {
@@ -283,10 +283,10 @@ void Lowering::lower_switch(const SpirvInst& inst) {
 
 void Lowering::lower_return(const SpirvInst& inst) {
   const SpirvInst function = m_.definition(frame_->function->id);
-  const uint64_t components = type(function[1]).components;
+  const Type& result = type(function[1]);
   const bool with_value = inst.op == spv::Op::OpReturnValue;
-  if (with_value != (components != 0)) return fail("does not fit the function's result");
-  const std::span<const Reg> value = with_value ? data(inst[1], components) : std::span<const Reg>{};
+  if (with_value != result.has_value()) return fail("does not fit the function's result");
+  const std::span<const Reg> value = with_value ? data(inst[1], result.components) : std::span<const Reg>{};
   if (frame_->direct_exit) {
     frame_->returned = value;
     frame_->returned_directly = true;
@@ -314,13 +314,15 @@ void Lowering::copy_to_phis(uint32_t target, Reg condition, bool negate) {
   const SpirvFunction& function = *frame_->function;
   const SpirvBlock& to = function.blocks[target];
   BlockState& state = frame_->blocks[target];
+  const Reg first_inner = first_inner_register(to.position);
   std::vector<std::pair<Reg, Reg>> moves;  // variable, value
   for (uint32_t word = to.first; word < to.end; word += m_.at(word).count) {
     const SpirvInst inst = m_.at(word);
     if (inst.op == spv::Op::OpLine || inst.op == spv::Op::OpNoLine) continue;
     if (inst.op != spv::Op::OpPhi) break;
     const uint64_t count = type(inst[1]).components;
-    if (count == 0 || count > kMaxValueComponents) return fail("leads to a phi of a type that is not supported");
+    if (!type(inst[1]).has_value() || count > kMaxValueComponents)
+      return fail("leads to a phi of a type that is not supported");
     if (state.edges == 0) {
       const Reg first = code_.new_variable(static_cast<uint32_t>(count));
       const std::span<Reg> regs = allocate(static_cast<size_t>(count));
@@ -332,7 +334,11 @@ void Lowering::copy_to_phis(uint32_t target, Reg condition, bool negate) {
     for (uint32_t i = 3; i + 1 < inst.count; i += 2) {
       if (inst[i + 1] != from) continue;
       const std::span<const Reg> values = data(inst[i], count);
-      if (state.edges == 0) state.phis.emplace_back(inst[2], values);
+      // What was made in a loop that is left here goes on changing after lanes have left.
+      const bool changes = std::any_of(values.begin(), values.end(), [&](Reg value) {
+        return value >= first_inner && code_.registers[value].kind != RegKind::constant;
+      });
+      if (state.edges == 0 && !changes) state.phis.emplace_back(inst[2], values);
       for (size_t c = 0; c < count; ++c) {
         if (variables[c] != values[c]) moves.emplace_back(variables[c], values[c]);
       }

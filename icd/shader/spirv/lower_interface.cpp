@@ -105,7 +105,8 @@ void Lowering::declare_shared(const SpirvInst& inst) {
   value.pointer.space = Space::shared;
   value.pointer.type = type(inst[1]).element;
   const uint64_t count = type(value.pointer.type).components;
-  if (count == 0 || count > kMaxVariableComponents) return fail("is a variable of a size that is not supported");
+  if (!type(value.pointer.type).has_value() || count > kMaxVariableComponents)
+    return fail("is a variable of a size that is not supported");
   if (inst.count > 4 && m_.op(inst[4]) != spv::Op::OpConstantNull) return fail("its initializer is not null");
   variables_.push_back({kNoReg, static_cast<uint32_t>(count)});
   value.pointer.variable = &variables_.back();
@@ -124,7 +125,8 @@ void Lowering::declare_interface(const SpirvInst& inst, bool output) {
     value = *find_value(id);
   } else {
     const uint64_t count = type(pointee).components;
-    if (count == 0 || count > kMaxVariableComponents) return fail("is an input of a size that is not supported");
+    if (!type(pointee).has_value() || count > kMaxVariableComponents)
+      return fail("is an input of a size that is not supported");
     variables_.push_back({code_.new_value(static_cast<uint32_t>(count)), static_cast<uint32_t>(count), kNoReg, true});
     value.pointer.variable = &variables_.back();
     bind(id, value);

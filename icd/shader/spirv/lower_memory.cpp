@@ -10,7 +10,7 @@ constexpr size_t kMaxKnown = 4096;
 }
 
 Variable* Lowering::new_variable(uint64_t components) {
-  if (components == 0 || components > kMaxVariableComponents) {
+  if (components > kMaxVariableComponents) {
     fail("is a variable of a size that is not supported");
     components = 1;
   }
@@ -26,6 +26,8 @@ Variable* Lowering::new_variable(uint64_t components) {
 void Lowering::lower_variable(const SpirvInst& inst) {
   const uint32_t pointee = type(inst[1]).element;
   const uint64_t count = type(pointee).components;
+  const bool nothing = type(pointee).kind == Kind::none;
+  if (!type(pointee).has_value() && !nothing) return fail("is a variable without a value");
   Value value;
   value.shape = Value::Shape::pointer;
   value.pointer.space = Space::registers;
@@ -170,8 +172,7 @@ void Lowering::index_pointer(Pointer& to, uint32_t index_id) {
 
 std::vector<Reg> Lowering::load(const Pointer& from) {
   const uint64_t components = type(from.type).components;
-  const bool empty = components == 0 && type(from.type).kind != Kind::structure;
-  if (empty || components > kMaxValueComponents) {
+  if (!type(from.type).has_value() || components > kMaxValueComponents) {
     fail("loads what has no value of a sane size");
     return {};
   }
@@ -183,7 +184,7 @@ std::vector<Reg> Lowering::load(const Pointer& from) {
     return regs;
   }
   Variable* variable = from.variable;
-  if (from.dynamic == kNoReg) {
+  if (from.dynamic == kNoReg || count == 0) {
     for (uint32_t i = 0; i < count; ++i) {
       const Reg reg = variable->first + from.offset + i;
       const Reg known = variable->input ? reg : get_known(reg);
@@ -223,7 +224,7 @@ void Lowering::store(const Pointer& to, std::span<const Reg> values) {
       code_.emit_void(Opcode::store_array, index, values[i], kNoReg, array_of(variable));
     }
   }
-  if (to.dynamic != kNoReg) forget(variable.first, variable.count);
+  if (to.dynamic != kNoReg && !values.empty()) forget(variable.first, variable.count);
 }
 
 void Lowering::lower_load(const SpirvInst& inst) {

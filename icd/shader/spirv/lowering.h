@@ -54,6 +54,8 @@ struct Type {
   bool is_scalar() const { return kind >= Kind::boolean && kind <= Kind::real; }
   bool is_integer() const { return kind == Kind::sint || kind == Kind::uint; }
   bool is_handle() const { return kind >= Kind::image; }
+  // Structures may be empty.
+  bool has_value() const { return components != 0 || kind == Kind::structure || kind == Kind::array; }
 };
 
 // A variable in registers: Function, Private, Output; or the value registers of an Input. Or one in the workgroup's

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "shader/spirv/test/run_shader.h"
+#include "shaders/empty.comp.h"
 #include "shaders/memory.comp.h"
 #include "shaders/quantize.comp.h"
 #include "shaders/special.comp.h"
@@ -149,6 +150,13 @@ TEST(SpirvMemory, QuantizedSpecializationConstants) {
     const uint32_t fraction = (static_cast<uint32_t>(random()) & 0xFFF000u) + static_cast<uint32_t>(random()) % 3 - 1;
     quantize((power + fraction) | (static_cast<uint32_t>(random()) & 0x80000000u));
   }
+}
+
+TEST(SpirvMemory, StructuresWithoutMembers) {
+  ComputeRun run;
+  const uint32_t* const results = run.buffer<uint32_t>(0, kBatchLanes);
+  run.run(shaders::kEmptyComp);
+  for (uint32_t n = 0; n < kBatchLanes; ++n) EXPECT_EQ(results[n], n);
 }
 
 }  // namespace
