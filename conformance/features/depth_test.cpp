@@ -13,6 +13,7 @@
 #include "shaders/discard_checker.frag.h"
 #include "shaders/flat_color.frag.h"
 #include "shaders/position_color.vert.h"
+#include "shaders/sample_mask.frag.h"
 
 namespace lapilli::conformance {
 namespace {
@@ -163,10 +164,10 @@ TEST(DepthTest, InterpolatedDepthIsAffineOnTheScreenAndPreciseToAMillionth) {
   RecordProperty("worst", std::to_string(worst));
 }
 
-TEST(DepthTest, DiscardedFragmentsLeaveDepthAndColour) {
+void expect_checker(std::span<const uint32_t> fragment_shader) {
   PipelineState state;
   state.depth_test = state.depth_write = true;
-  state.fragment_shader = shaders::kDiscardCheckerFrag;
+  state.fragment_shader = fragment_shader;
   const Result r = draw(layer(0.25f), state, 1, nullptr);
   for (uint32_t y = 0; y < kSide; ++y) {
     for (uint32_t x = 0; x < kSide; ++x) {
@@ -176,6 +177,11 @@ TEST(DepthTest, DiscardedFragmentsLeaveDepthAndColour) {
     }
   }
 }
+
+TEST(DepthTest, DiscardedFragmentsLeaveDepthAndColour) { expect_checker(shaders::kDiscardCheckerFrag); }
+
+// A fragment whose only sample is not in gl_SampleMask.
+TEST(DepthTest, MaskedFragmentsLeaveDepthAndColour) { expect_checker(shaders::kSampleMaskFrag); }
 
 // gl_FragDepth replaces the interpolated depth before the test; the shader writes x / 32.
 TEST(DepthTest, ExportedDepthIsTestedAndWritten) {

@@ -89,6 +89,10 @@ BuiltIn input_of(spv::BuiltIn built_in) {
 
 void emit_built_ins(LoweredShader& shader, const std::vector<bool>& live) {
   for (const InterfaceBuiltIn& input : shader.built_in_inputs) {
+    if (input.built_in == spv::BuiltIn::SampleMask) {  // of one sample, which is covered
+      shader.code.emit_to(Opcode::mov, input.regs[0], shader.code.constant(1));
+      continue;
+    }
     const bool position = input.built_in == spv::BuiltIn::FragCoord;  // z and w: emit_fragment_prologue
     const size_t count = position ? 2 : input.regs.size();
     for (uint32_t i = 0; i < count; ++i) {
@@ -222,10 +226,27 @@ void plan_shading(FragmentPlan& plan, const LoweredShader& shader, const Graphic
                     !reads_helpers && plan.early_depth == plan.depth_test;
 }
 
-// Behind the shader: late depth, the count of samples that passed (unless the shader asks for early tests), colours.
+// There is one sample: a fragment whose mask leaves it out is gone before late depth.
+void emit_sample_mask(LoweredShader& shader) {
+  const InterfaceBuiltIn* mask = find_built_in(shader.built_in_outputs, spv::BuiltIn::SampleMask);
+  if (mask == nullptr) return;
+  Code& code = shader.code;
+  const Reg sample = code.emit(Opcode::iand, mask->regs[0], code.constant(1));
+  const Reg leaves = code.emit(Opcode::ieq, sample, code.constant(0));
+  const uint32_t gone = code.new_mask(), others = code.new_mask(), behind = code.new_label();
+  code.emit_void(Opcode::branch_if, leaves, kNoReg, kNoReg, gone, others);
+  code.emit_void(Opcode::enter, kNoReg, kNoReg, kNoReg, gone, behind);
+  code.emit_void(Opcode::kill);
+  code.place_label(behind);
+  code.emit_void(Opcode::enter, kNoReg, kNoReg, kNoReg, others, shader.end_label);
+}
+
+// Behind the shader: the sample mask, late depth, the count of samples that passed (unless the shader asks for early
+// tests), colours.
 Result<void> emit_fragment_epilogue(LoweredShader& shader, const GraphicsState& state, const FragmentPlan& plan,
                                     Reg depth_reg) {
   Code& code = shader.code;
+  emit_sample_mask(shader);
   if (plan.depth_test && !plan.early_depth) {
     Reg z = depth_reg;
     if (const InterfaceBuiltIn* replaced = find_built_in(shader.built_in_outputs, spv::BuiltIn::FragDepth)) {

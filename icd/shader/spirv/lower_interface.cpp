@@ -26,6 +26,8 @@ constexpr BuiltInRow kBuiltIns[] = {
     {spv::BuiltIn::FragCoord, VK_SHADER_STAGE_FRAGMENT_BIT, false, 4},
     {spv::BuiltIn::FrontFacing, VK_SHADER_STAGE_FRAGMENT_BIT, false, 1},
     {spv::BuiltIn::HelperInvocation, VK_SHADER_STAGE_FRAGMENT_BIT, false, 1},
+    {spv::BuiltIn::SampleMask, VK_SHADER_STAGE_FRAGMENT_BIT, false, 1},
+    {spv::BuiltIn::SampleMask, VK_SHADER_STAGE_FRAGMENT_BIT, true, 1},
     {spv::BuiltIn::FragDepth, VK_SHADER_STAGE_FRAGMENT_BIT, true, 1},
     {spv::BuiltIn::NumWorkgroups, VK_SHADER_STAGE_COMPUTE_BIT, false, 3},
     {spv::BuiltIn::WorkgroupId, VK_SHADER_STAGE_COMPUTE_BIT, false, 3},
@@ -173,10 +175,13 @@ void Lowering::declare_built_in(const SpirvInst& inst, uint32_t built_in, uint32
   entry.built_in = which;
   entry.word = inst.word;
   for (uint32_t i = 0; i < row->components; ++i) entry.regs.push_back(first + i);
-  if (which == spv::BuiltIn::PointSize) {  // what it is where the shader does not write it
-    code_.emit_to(Opcode::mov, first, constant_f(1.0f));
-    set_known(first, constant_f(1.0f));
+  const bool mask = output && which == spv::BuiltIn::SampleMask;
+  if (which == spv::BuiltIn::PointSize || mask) {  // what it is where the shader does not write it
+    const Reg value = mask ? constant(~0u) : constant_f(1.0f);
+    code_.emit_to(Opcode::mov, first, value);
+    set_known(first, value);
   }
+  out_.kills |= mask;
   (output ? out_.built_in_outputs : out_.built_in_inputs).push_back(std::move(entry));
 }
 
