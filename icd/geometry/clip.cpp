@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 namespace lapilli {
@@ -13,6 +14,16 @@ using Plane = std::array<double, 4>;  // inside: dot(plane, position) >= 0
 double distance(const Plane& plane, const ClipPoint& point) {
   return plane[0] * point.position[0] + plane[1] * point.position[1] + plane[2] * point.position[2] +
          plane[3] * point.position[3];
+}
+
+// Of a plane of the user's; infinite ones are as far away as floats go.
+double user_distance(const UserPlanes& user, uint32_t plane, const ClipPoint& point) {
+  constexpr double kFar = static_cast<double>(std::numeric_limits<float>::max());
+  double sum = 0;
+  for (uint32_t i = 0; i < 3; ++i) {
+    sum += point.weight[i] * std::clamp(static_cast<double>(user.distances[i][plane]), -kFar, kFar);
+  }
+  return sum;
 }
 
 // The point where the edge from `inside` (distance d_in >= 0) to `outside` (d_out < 0) meets the plane.
@@ -35,7 +46,7 @@ ClipPoint cross_point(const ClipPoint& inside, double d_in, const ClipPoint& out
 
 }  // namespace
 
-uint32_t clip_triangle(const ClipSpace& space, const float (&vertices)[3][4],
+uint32_t clip_triangle(const ClipSpace& space, const float (&vertices)[3][4], const UserPlanes& user,
                        std::span<ClipPoint, kMaxClippedVertices> polygon) {
   std::array<ClipPoint, kMaxClippedVertices> buffers[2];
   ClipPoint* from = buffers[0].data();
@@ -48,7 +59,8 @@ uint32_t clip_triangle(const ClipSpace& space, const float (&vertices)[3][4],
   }
 
   // Framebuffer position * w = scale * x + offset * w must stay within +-kGuardBand * w.
-  const Plane planes[6] = {
+  constexpr uint32_t kFixed = 6;
+  const Plane planes[kFixed] = {
       {0, 0, 1, 0},
       {0, 0, -1, 1},
       {space.scale_x, 0, 0, kGuardBand + space.offset_x},
@@ -56,11 +68,11 @@ uint32_t clip_triangle(const ClipSpace& space, const float (&vertices)[3][4],
       {0, space.scale_y, 0, kGuardBand + space.offset_y},
       {0, -space.scale_y, 0, kGuardBand - space.offset_y},
   };
-  for (uint32_t p = space.clip_depth ? 0 : 2; p < 6; ++p) {
+  for (uint32_t p = space.clip_depth ? 0 : 2; p < kFixed + user.count; ++p) {
     double distances[kMaxClippedVertices];
     bool any_outside = false;
     for (uint32_t i = 0; i < count; ++i) {
-      distances[i] = distance(planes[p], from[i]);
+      distances[i] = p < kFixed ? distance(planes[p], from[i]) : user_distance(user, p - kFixed, from[i]);
       any_outside |= distances[i] < 0;
     }
     if (!any_outside) continue;
@@ -69,7 +81,7 @@ uint32_t clip_triangle(const ClipSpace& space, const float (&vertices)[3][4],
       const uint32_t next = i + 1 == count ? 0 : i + 1;
       const bool in = distances[i] >= 0;
       const bool next_in = distances[next] >= 0;
-      if (in) to[kept++] = from[i];
+      if (in && kept < kMaxClippedVertices) to[kept++] = from[i];
       if (in != next_in && kept < kMaxClippedVertices) {
         to[kept++] = in ? cross_point(from[i], distances[i], from[next], distances[next])
                         : cross_point(from[next], distances[next], from[i], distances[i]);

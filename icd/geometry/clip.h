@@ -9,7 +9,7 @@
 
 namespace lapilli {
 
-constexpr uint32_t kMaxClippedVertices = 3 + 6;  // each plane adds at most one
+constexpr uint32_t kMaxClippedVertices = 3 + 6 + kMaxDistances;  // each plane adds at most one
 
 // A corner of a clipped polygon as a mixture of the triangle's three vertices.
 struct ClipPoint {
@@ -24,10 +24,16 @@ struct ClipSpace {
   bool clip_depth;  // 0 <= z <= w; off with depthClampEnable
 };
 
-// Clips a triangle against 0 <= z <= w and the guard band (which implies w >= 0). Returns the number of corners written
-// to `polygon` (0, or 3 to kMaxClippedVertices). A point on an edge is always computed from the end inside towards the
-// end outside, so that triangles which share the edge get the same point.
-uint32_t clip_triangle(const ClipSpace& space, const float (&vertices)[3][4],
+// The vertices' distances to the planes of the user: inside is what has none below 0.
+struct UserPlanes {
+  uint32_t count = 0;
+  const float* distances[3] = {};  // [vertex][plane]; no NaNs
+};
+
+// Clips a triangle against 0 <= z <= w, the guard band (which implies w >= 0) and the user's planes. Returns the number
+// of corners written to `polygon` (0, or 3 to kMaxClippedVertices). A point on an edge is always computed from the end
+// inside towards the end outside, so that triangles which share the edge get the same point.
+uint32_t clip_triangle(const ClipSpace& space, const float (&vertices)[3][4], const UserPlanes& user,
                        std::span<ClipPoint, kMaxClippedVertices> polygon);
 
 }  // namespace lapilli

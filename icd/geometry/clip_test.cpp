@@ -14,9 +14,9 @@ namespace {
 // A 200x100 viewport at the origin.
 constexpr ClipSpace kSpace = {100, 100, 50, 50, true};
 
-std::vector<ClipPoint> clip(const float (&v)[3][4], const ClipSpace& space = kSpace) {
+std::vector<ClipPoint> clip(const float (&v)[3][4], const ClipSpace& space = kSpace, const UserPlanes& user = {}) {
   ClipPoint polygon[kMaxClippedVertices];
-  const uint32_t count = clip_triangle(space, v, polygon);
+  const uint32_t count = clip_triangle(space, v, user, polygon);
   return {polygon, polygon + count};
 }
 
@@ -51,6 +51,35 @@ TEST(Clip, NearPlaneMakesAQuad) {
   const auto on_plane =
       std::count_if(polygon.begin(), polygon.end(), [](const ClipPoint& p) { return p.position[2] == 0; });
   EXPECT_EQ(on_plane, 2);
+}
+
+// Eight planes that each cut a corner off, and those of the view volume: no vertex is lost.
+TEST(Clip, PlanesOfTheUser) {
+  const float v[3][4] = {{-300, -300, -1, 1}, {900, -300, 0.5f, 1}, {-300, 900, 2.2f, 1}};
+  float distances[3][kMaxDistances];
+  UserPlanes user{kMaxDistances, {distances[0], distances[1], distances[2]}};
+  for (size_t k = 0; k < kMaxDistances; ++k) {
+    const double angle = 0.3 + static_cast<double>(k) * 2 * M_PI / kMaxDistances;
+    for (size_t i = 0; i < 3; ++i) {
+      distances[i][k] = static_cast<float>(std::cos(angle) * static_cast<double>(v[i][0]) +
+                                           std::sin(angle) * static_cast<double>(v[i][1]) + 20);
+    }
+  }
+  const auto polygon = clip(v, kSpace, user);
+  ASSERT_GE(polygon.size(), 8u);
+  for (const ClipPoint& p : polygon) {
+    for (size_t k = 0; k < kMaxDistances; ++k) {
+      double distance = 0;
+      for (size_t i = 0; i < 3; ++i) distance += p.weight[i] * static_cast<double>(distances[i][k]);
+      EXPECT_GE(distance, -1e-9);
+    }
+    EXPECT_GE(p.position[2], -1e-12);
+    EXPECT_LE(p.position[2], 1 + 1e-12);
+  }
+  for (float& distance : distances[1]) distance = -1;
+  for (float& distance : distances[0]) distance = -1;
+  for (float& distance : distances[2]) distance = -1;
+  EXPECT_TRUE(clip(v, kSpace, user).empty());
 }
 
 // With w varying, "screen" weights give values linear in the framebuffer: check against the projected position itself.

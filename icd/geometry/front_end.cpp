@@ -12,7 +12,9 @@ namespace {
 // with 16 bits even if all triangles are clipped.
 constexpr uint32_t kChunkTriangles = 4096;
 static_assert(kChunkTriangles * 3 <= VertexStage::kMostVertices);
-static_assert(kChunkTriangles * (3 + kMaxClippedVertices) <= 1u << 16);
+static_assert(kChunkTriangles * (3 + kMaxClippedVertices - kMaxDistances) <= 1u << 16);
+constexpr uint32_t kChunkTrianglesWithDistances = 3072;
+static_assert(kChunkTrianglesWithDistances * (3 + kMaxClippedVertices) <= 1u << 16);
 // Small passes are cut into about this many, so that there is work for all threads.
 constexpr uint32_t kLeastChunks = 32;
 constexpr uint32_t kLeastChunkTriangles = 256;
@@ -68,9 +70,13 @@ void FrontEnd::begin(std::span<const DrawCall> draws, const TileGrid& grid, cons
   area_ = area;
   limits_ = &limits;
   uint64_t vertices = 0;
-  for (const DrawCall& draw : draws) vertices += uint64_t{draw.count} * draw.instance_count;
-  chunk_triangles_ =
-      static_cast<uint32_t>(std::clamp<uint64_t>(vertices / 3 / kLeastChunks, kLeastChunkTriangles, kChunkTriangles));
+  bool distances = false;
+  for (const DrawCall& draw : draws) {
+    vertices += uint64_t{draw.count} * draw.instance_count;
+    distances |= draw.state->programs->clip_distances != 0;
+  }
+  chunk_triangles_ = static_cast<uint32_t>(std::clamp<uint64_t>(
+      vertices / 3 / kLeastChunks, kLeastChunkTriangles, distances ? kChunkTrianglesWithDistances : kChunkTriangles));
   chunk_triangles_ = std::min(chunk_triangles_, std::max(kMaxListEntries / std::max(grid.count(), 1u), 16u));
   plans_.clear();
   done_plans_ = 0;
@@ -221,7 +227,7 @@ void FrontEnd::fill_list(std::span<const WorkItem> items, Worker& worker, BinChu
 
   list.corners = worker.corners.data();
   list.runs = worker.runs.data();
-  list.positions = stage.positions();
+  list.inputs = &stage.inputs();
   if (any_ledger) {
     worker.removed.assign(out.runs.size(), 0);
     list.removed = worker.removed.data();

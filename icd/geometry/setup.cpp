@@ -70,10 +70,17 @@ uint32_t append_corner(const SetupState& state, const ClipPoint& point, const ui
                        BinChunk& chunk) {
   const double w = point.position[3];
   BinVertex corner;
+  // A vertex itself lies where triangles that need no clipping have it: in float32, as append_vertices() does.
   // Clipping is exact up to rounding only: what it left outside is moved to the border.
-  const auto clamped = [](double pixels) { return std::clamp(pixels, -kGuardBand, kGuardBand); };
-  corner.x = snap(clamped(state.clip_space.scale_x * (point.position[0] / w) + state.clip_space.offset_x));
-  corner.y = snap(clamped(state.clip_space.scale_y * (point.position[1] / w) + state.clip_space.offset_y));
+  const bool is_vertex = std::ranges::count(point.weight, 0.0) == 2;
+  const auto on_screen = [&](double position, float half_size, float centre) {
+    const double pixels =
+        is_vertex ? static_cast<double>(static_cast<float>(position) / static_cast<float>(w) * half_size + centre)
+                  : position / w * static_cast<double>(half_size) + static_cast<double>(centre);
+    return snap(std::clamp(pixels, -kGuardBand, kGuardBand));
+  };
+  corner.x = on_screen(point.position[0], state.half_width, state.centre_x);
+  corner.y = on_screen(point.position[1], state.half_height, state.centre_y);
   double z = point.position[2] / w;
   if (state.clip_depth) z = std::clamp(z, 0.0, 1.0);
   corner.z = z * state.depth_scale + state.depth_offset;
@@ -146,6 +153,8 @@ SetupState make_setup_state(const DrawState& bound, const PixelRect& area) {
   state.bias_clamp = bound.raster.depth_bias_clamp;
   state.bias_slope = bound.raster.depth_bias_slope;
   state.varyings = bound.programs->varyings;
+  state.clip_distances = bound.programs->clip_distances;
+  state.cull_distances = bound.programs->cull_distances;
   return state;
 }
 
@@ -169,12 +178,14 @@ void clip_and_append(const SetupState& state, const TriangleList& list, uint32_t
   if (in_common != 0 || (any & kOutInvalid) != 0 || state.rect.empty()) return;
 
   float positions[3][4];
+  UserPlanes user{state.clip_distances, {}};
   for (uint32_t v = 0; v < 3; ++v) {
-    const ClipPosition& position = list.positions[slots[v]];
+    const ClipPosition& position = list.inputs->positions[slots[v]];
     std::memcpy(positions[v], &position, sizeof position);
+    user.distances[v] = list.inputs->distances.data() + size_t{slots[v]} * user.count;
   }
   ClipPoint polygon[kMaxClippedVertices];
-  const uint32_t count = clip_triangle(state.clip_space, positions, polygon);
+  const uint32_t count = clip_triangle(state.clip_space, positions, user, polygon);
   uint32_t corners[kMaxClippedVertices];
   for (uint32_t i = 0; i < count; ++i) corners[i] = append_corner(state, polygon[i], vertices, chunk);
 

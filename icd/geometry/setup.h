@@ -24,6 +24,7 @@ struct SetupState {
   bool depth_bias;
   float bias_constant, bias_clamp, bias_slope;
   std::span<const Interpolation> varyings;
+  uint32_t clip_distances, cull_distances;  // slots behind the varyings
 };
 SetupState make_setup_state(const DrawState& draw, const PixelRect& area);
 
@@ -38,7 +39,8 @@ constexpr int32_t kNotInside = INT32_MIN;
 enum OutCode : int32_t {
   kOutNear = 1,
   kOutFar = 2,
-  kOutInvalid = 4,  // not finite: every triangle with it is dropped
+  kOutInvalid = 4,   // not finite, or a NaN as a clip distance: every triangle with it is dropped
+  kOutDistance = 8,  // and the bits above: a clip or cull distance that is negative, in the order of their slots
 };
 
 // A vertex as the vertex program gave it.
@@ -46,11 +48,17 @@ struct ClipPosition {
   float x, y, z, w;
 };
 
+// What clipping needs of a list's vertices.
+struct ClipInputs {
+  BinArray<ClipPosition> positions;
+  BinArray<float> distances;  // [vertex][SetupState::clip_distances]
+};
+
 // Transforms the first `lanes` lanes of a vertex program's outputs ([slot][kBatchLanes]) and appends them to the
-// chunk's vertices, with their varyings, and to `positions`. For all SIMD targets the same bits as
+// chunk's vertices, with their varyings, and to `inputs`. For all SIMD targets the same bits as
 // x / w * half_width + centre_x … lane by lane.
 void append_vertices(const SetupState& state, const float* outputs, uint32_t lanes, BinChunk& chunk,
-                     BinArray<ClipPosition>& positions);
+                     ClipInputs& inputs);
 
 // --- triangles
 
@@ -61,9 +69,9 @@ struct TriangleList {
   const uint32_t* corners = nullptr;  // three each, [0] the provoking vertex; from first_vertex on
   const uint32_t* runs = nullptr;     // in BinChunk::runs
   uint32_t count = 0;
-  uint32_t first_vertex = 0;                // in BinChunk::vertices
-  const ClipPosition* positions = nullptr;  // from first_vertex on
-  uint32_t* removed = nullptr;              // [run]: counts triangles that left nothing; null: nobody asks
+  uint32_t first_vertex = 0;           // in BinChunk::vertices
+  const ClipInputs* inputs = nullptr;  // from first_vertex on
+  uint32_t* removed = nullptr;         // [run]: counts triangles that left nothing; null: nobody asks
 };
 
 // Appends what is left of the triangles after clipping and culling. Those without a pixel centre in `rect` are left out

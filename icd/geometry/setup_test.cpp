@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -16,7 +17,7 @@ struct Fixture {
   GraphicsPrograms programs;
   DrawState bound;
   uint32_t removed = 0;                                               // TriangleList::removed of the last run
-  alignas(64) float outputs[(kSlotVaryings + 2) * kBatchLanes] = {};  // lanes 0..2 are the vertices
+  alignas(64) float outputs[(kSlotVaryings + 4) * kBatchLanes] = {};  // lanes 0..2 are the vertices
 
   Fixture() {
     bound.programs = &programs;
@@ -32,12 +33,12 @@ struct Fixture {
     const SetupState state = make_setup_state(bound, kArea);
     BinChunk chunk;
     begin_run(state, 0, chunk);
-    BinArray<ClipPosition> positions;
-    append_vertices(state, outputs, 3, chunk, positions);
+    ClipInputs inputs;
+    append_vertices(state, outputs, 3, chunk, inputs);
     const uint32_t corners[3 + 3 * TriangleList::kPadding] = {0, 1, 2};
     const uint32_t runs[1 + TriangleList::kPadding] = {};
     removed = 0;
-    append_triangles(state, {corners, runs, 1, 0, positions.data(), &removed}, chunk);
+    append_triangles(state, {corners, runs, 1, 0, &inputs, &removed}, chunk);
     finish_chunk({4, 2}, chunk);
     return chunk;
   }
@@ -45,6 +46,30 @@ struct Fixture {
 
 // The only triangle, ready to be shaded.
 TriangleSetup setup_of(const BinChunk& chunk) { return make_triangle_setup(chunk, chunk.triangles[0]); }
+
+// A triangle that is not culled lies where it would without cull distances, and so does what clipping leaves.
+TEST(Setup, DistancesMoveNoVertex) {
+  for (const bool cull : {false, true}) {
+    Fixture f;
+    f.vertex(0, -0.3f, -0.7f, 0.1f, 1.1f);
+    f.vertex(1, 2.1f, -1.3f, 0.5f, 3.7f);
+    f.vertex(2, -0.2f, 0.9f, 1, 1.3f);
+    const BinChunk plain = f.run();
+    (cull ? f.programs.cull_distances : f.programs.clip_distances) = 1;
+    float* const distances = f.outputs + kSlotVaryings * kBatchLanes;
+    distances[0] = -1, distances[1] = 3, distances[2] = 2;
+    const BinChunk chunk = f.run();
+    ASSERT_EQ(chunk.triangles.size(), cull ? 1u : 2u);
+    for (size_t v = cull ? 0 : 1; v < 3; ++v) {
+      const BinVertex& expected = plain.vertices[v];
+      EXPECT_TRUE(std::any_of(chunk.vertices.begin() + 3, chunk.vertices.end(), [&](const BinVertex& got) {
+        return got.x == expected.x && got.y == expected.y && got.z == expected.z && got.inverse_w == expected.inverse_w;
+      })) << v;
+    }
+    distances[1] = distances[2] = -1;
+    EXPECT_TRUE(f.run().triangles.empty());
+  }
+}
 
 // Top left, top right, bottom left in clip space: clockwise on the screen.
 void clockwise(Fixture& f) {

@@ -5,6 +5,7 @@
 #define HWY_TARGET_INCLUDE "geometry/transform_lanes.cpp"
 #include <hwy/foreach_target.h>
 //
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 
@@ -114,9 +115,37 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace lapilli {
+namespace {
+
+// Says of vertices with negative distances that they are not inside, and keeps the clip distances.
+void append_distances(const SetupState& state, const float* outputs, uint32_t lanes, BinVertex* vertices,
+                      BinArray<float>& distances) {
+  const uint32_t clip = state.clip_distances, count = clip + state.cull_distances;
+  const float* const slots = outputs + (kSlotVaryings + state.varyings.size()) * kBatchLanes;
+  const size_t done = distances.size();
+  distances.resize(done + size_t{lanes} * clip);
+  float* kept = distances.data() + done;
+  for (uint32_t lane = 0; lane < lanes; ++lane) {
+    int32_t code = 0;
+    for (uint32_t k = 0; k < count; ++k) {
+      const float distance = slots[k * kBatchLanes + lane];
+      if (distance < 0) code |= kOutDistance << k;
+      if (k >= clip) continue;
+      if (std::isnan(distance)) code |= kOutInvalid;
+      *kept++ = distance;
+    }
+    if (code == 0) continue;
+    BinVertex& vertex = vertices[lane];
+    vertex.y = code | (vertex.x == kNotInside ? vertex.y : 0);
+    vertex.x = kNotInside;
+  }
+}
+
+}  // namespace
 
 void append_vertices(const SetupState& state, const float* outputs, uint32_t lanes, BinChunk& chunk,
-                     BinArray<ClipPosition>& positions) {
+                     ClipInputs& inputs) {
+  BinArray<ClipPosition>& positions = inputs.positions;
   using Transform = void(const SetupState&, const float*, uint32_t, uint32_t, BinVertex*, float*, ClipPosition*);
   static constexpr PerTarget<Transform> kTable = LAPILLI_PER_TARGET(transform_lanes);
   const size_t vertices = chunk.vertices.size(), varyings = chunk.varyings.size(), done = positions.size();
@@ -129,6 +158,8 @@ void append_vertices(const SetupState& state, const float* outputs, uint32_t lan
   chunk.vertices.resize(vertices + lanes);
   chunk.varyings.resize(varyings + lanes * count);
   positions.resize(done + lanes);
+  if (state.clip_distances + state.cull_distances != 0)
+    append_distances(state, outputs, lanes, chunk.vertices.data() + vertices, inputs.distances);
 }
 
 }  // namespace lapilli

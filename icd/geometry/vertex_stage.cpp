@@ -12,12 +12,15 @@ constexpr uint32_t kTableSize = VertexStage::kMostVertices;
 
 }  // namespace
 
-void VertexStage::begin_list() { positions_.clear(); }
+void VertexStage::begin_list() {
+  inputs_.positions.clear();
+  inputs_.distances.clear();
+}
 
 bool VertexStage::begin(const DrawCall& draw, ExecutionLimits& limits) {
   draw_ = &draw;
   limits_ = &limits;
-  first_ = static_cast<uint32_t>(positions_.size());
+  first_ = static_cast<uint32_t>(inputs_.positions.size());
   vertex_.clear();
   instance_.clear();
   instance_first_ = 0;
@@ -97,7 +100,7 @@ void VertexStage::run(const SetupState& state, BinChunk& chunk) {
   batch_.outputs = outputs_[0].value;
   chunk.vertices.reserve(chunk.vertices.size() + count + kBatchLanes);
   chunk.varyings.reserve(chunk.varyings.size() + (count + kBatchLanes) * state.varyings.size());
-  positions_.reserve(positions_.size() + count + kBatchLanes);
+  inputs_.positions.reserve(inputs_.positions.size() + count + kBatchLanes);
   size_t part = 0;
   for (uint32_t first = 0; first < count; first += kBatchLanes) {
     const uint32_t lanes = std::min(count - first, kBatchLanes);
@@ -106,7 +109,7 @@ void VertexStage::run(const SetupState& state, BinChunk& chunk) {
     std::memcpy(batch_.instance_index, instance_.data() + first, lanes * sizeof(uint32_t));
     if (parts_.size() > 1) prepare_lanes(first, lanes, part);
     execution_.run_vertices(batch_, lanes == kBatchLanes ? ~uint64_t{0} : (uint64_t{1} << lanes) - 1);
-    append_vertices(state, batch_.outputs, lanes, chunk, positions_);
+    append_vertices(state, batch_.outputs, lanes, chunk, inputs_);
   }
 }
 

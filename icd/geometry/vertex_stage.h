@@ -28,7 +28,7 @@ class VertexStage {
   void add_distinct(uint32_t instance, std::span<uint32_t> vertices);
   // Runs the vertices that were added since begin() and appends them to the chunk.
   void run(const SetupState& state, BinChunk& chunk);
-  const ClipPosition* positions() const { return positions_.data(); }
+  const ClipInputs& inputs() const { return inputs_; }  // of the list
 
   static constexpr uint32_t kMostVertices = 1u << 14;
 
@@ -56,8 +56,8 @@ class VertexStage {
   // By the low bits of a vertex index: the slot (place in vertex_) that it may have. What vertex_ says of it decides,
   // so that nothing has to be cleared. Made with the first indexed draw.
   std::vector<uint16_t> last_slot_;
-  uint32_t instance_first_ = 0;       // slot from which on all have the present instance and resources
-  BinArray<ClipPosition> positions_;  // of the list
+  uint32_t instance_first_ = 0;  // slot from which on all have the present instance and resources
+  ClipInputs inputs_;            // of the list
   VertexBatch batch_{};
   std::vector<Line> outputs_;  // [slot][64 lanes]
 };

@@ -67,9 +67,9 @@ void set_vertex_limits(VkPhysicalDeviceLimits& limits) {
   limits.maxVertexOutputComponents = kMaxVaryingComponents;
   limits.maxDrawIndexedIndexValue = (1u << 24) - 1;  // fullDrawIndexUint32 is not offered
   limits.maxDrawIndirectCount = 1;                   // multiDrawIndirect is not offered
-  limits.maxClipDistances = 0;                       // shaderClipDistance and shaderCullDistance are not offered
-  limits.maxCullDistances = 0;
-  limits.maxCombinedClipAndCullDistances = 0;
+  limits.maxClipDistances = kMaxDistances;
+  limits.maxCullDistances = kMaxDistances;
+  limits.maxCombinedClipAndCullDistances = kMaxDistances;
 }
 
 void set_fragment_limits(VkPhysicalDeviceLimits& limits) {

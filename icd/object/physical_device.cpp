@@ -67,6 +67,8 @@ VkPhysicalDeviceFeatures device_features() {
   features.robustBufferAccess = VK_TRUE;
   features.vertexPipelineStoresAndAtomics = VK_TRUE;
   features.fragmentStoresAndAtomics = VK_TRUE;
+  features.shaderClipDistance = VK_TRUE;
+  features.shaderCullDistance = VK_TRUE;
   features.shaderImageGatherExtended = VK_TRUE;
   features.shaderStorageImageExtendedFormats = VK_TRUE;
   features.shaderStorageImageReadWithoutFormat = VK_TRUE;

@@ -140,6 +140,7 @@ constexpr uint32_t kSlotPosition = 0;  // x y z w
 constexpr uint32_t kSlotPointSize = 4;
 constexpr uint32_t kSlotVaryings = 5;  // first varying component, assigned densely when the stages are linked
 constexpr uint32_t kMaxVaryingComponents = 64;
+constexpr uint32_t kMaxDistances = 8;  // to clip planes and cull planes together
 
 enum class BuiltIn : uint32_t {
   vertex_index,

@@ -152,25 +152,36 @@ using Varyings = std::vector<InterfaceComponent>;
 
 void emit_outputs(LoweredShader& shader, const Varyings& varyings) {
   Code& code = shader.code;
-  code.output_slots = kSlotVaryings + static_cast<uint32_t>(varyings.size());
+  const uint32_t distances = kSlotVaryings + static_cast<uint32_t>(varyings.size());
+  code.output_slots = distances + static_cast<uint32_t>(shader.distances.size());
   const auto store = [&](uint32_t slot, Reg reg) { code.emit_void(Opcode::store_output, reg, kNoReg, kNoReg, slot); };
   const InterfaceBuiltIn* position = find_built_in(shader.built_in_outputs, spv::BuiltIn::Position);
   for (uint32_t i = 0; i < 4; ++i) store(kSlotPosition + i, position != nullptr ? position->regs[i] : code.constant(0));
   const InterfaceBuiltIn* size = find_built_in(shader.built_in_outputs, spv::BuiltIn::PointSize);
   store(kSlotPointSize, size != nullptr ? size->regs[0] : code.constant_f(1.0f));
   for (uint32_t slot = 0; slot < varyings.size(); ++slot) {
-    const auto at = std::find_if(shader.outputs.begin(), shader.outputs.end(), [&](const InterfaceComponent& output) {
+    const bool distance = varyings[slot].location >= kClipDistanceLocation;
+    const std::vector<InterfaceComponent>& outputs = distance ? shader.distances : shader.outputs;
+    const auto at = std::find_if(outputs.begin(), outputs.end(), [&](const InterfaceComponent& output) {
       return output.location == varyings[slot].location && output.component == varyings[slot].component;
     });
-    store(kSlotVaryings + slot, at != shader.outputs.end() ? at->reg : code.constant(0));
+    store(kSlotVaryings + slot, at != outputs.end() ? at->reg : code.constant(0));
   }
+  for (uint32_t i = 0; i < shader.distances.size(); ++i) store(distances + i, shader.distances[i].reg);
 }
 
 Result<Code> make_vertex_code(const ShaderStage& stage, const GraphicsState& state, const ResourceLayout& layout,
-                              const Varyings& varyings, RemovedWork& removed) {
+                              const Varyings& varyings, GraphicsCode& out) {
   Result<LoweredShader> shader = lower_shader(stage, VK_SHADER_STAGE_VERTEX_BIT, layout);
   if (!shader) return shader.error();
+  if (shader->distances.size() > kMaxDistances)
+    return Error{VK_ERROR_UNKNOWN,
+                 "the vertex shader writes more than " + std::to_string(kMaxDistances) + " clip and cull distances"};
+  out.clip_distances = static_cast<uint32_t>(
+      std::ranges::count_if(shader->distances, [](const auto& each) { return each.location < kCullDistanceLocation; }));
+  out.cull_distances = static_cast<uint32_t>(shader->distances.size()) - out.clip_distances;
   emit_outputs(*shader, varyings);
+  RemovedWork& removed = out.removed;
   removed.vertex_cost = removed_work(*shader, state, Removal::varyings).cost;
   for (const InterfaceComponent& output : shader->outputs) {
     removed.vertex_values += std::none_of(varyings.begin(), varyings.end(), [&](const InterfaceComponent& read) {
@@ -394,7 +405,7 @@ Result<GraphicsCode> make_graphics_code(const ShaderStage& vertex, const ShaderS
                                                       return instruction.op == Opcode::frag_depth ||
                                                              (op_info(instruction.op).effects & kCrossLane) != 0;
                                                     });
-  Result<Code> vertex_code = make_vertex_code(vertex, state, layout, varyings, out.removed);
+  Result<Code> vertex_code = make_vertex_code(vertex, state, layout, varyings, out);
   if (!vertex_code) return vertex_code.error();
   out.vertex = std::move(*vertex_code);
   out.fragment = std::move(shader.code);
@@ -442,6 +453,8 @@ Result<GraphicsPrograms> build_graphics(const ShaderStage& vertex, const ShaderS
   out.fragment = std::move(*program);
   out.varyings = std::move(code->varyings);
   out.output_slots = code->output_slots;
+  out.clip_distances = code->clip_distances;
+  out.cull_distances = code->cull_distances;
   out.fragment_reads_nothing = code->fragment_reads_nothing;
   out.vertices_read_resources = read_resources(source(*out.vertex).instructions);
   out.vertices_store = store(source(*out.vertex).instructions);

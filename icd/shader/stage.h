@@ -70,10 +70,11 @@ struct RemovedWork {
 struct GraphicsPrograms : FragmentPlan {
   RemovedWork removed;
   ProgramPtr vertex;
-  ProgramPtr fragment;                  // null: nothing would be written (no fragment stage, no depth)
-  std::vector<Interpolation> varyings;  // one per varying component, from kSlotVaryings on
-  uint32_t output_slots = 0;            // slots of VertexBatch::outputs
-  bool fragment_reads_nothing = false;  // depth only
+  ProgramPtr fragment;                              // null: nothing would be written (no fragment stage, no depth)
+  std::vector<Interpolation> varyings;              // one per varying component, from kSlotVaryings on
+  uint32_t output_slots = 0;                        // slots of VertexBatch::outputs
+  uint32_t clip_distances = 0, cull_distances = 0;  // the slots behind the varyings: first these, then those
+  bool fragment_reads_nothing = false;              // depth only
   // Whether a ResourceTable makes a difference to the fragment program; and to the vertex program beyond what it
   // computes once per draw.
   bool fragment_reads_resources = true, vertices_read_resources = true;

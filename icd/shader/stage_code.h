@@ -12,6 +12,7 @@ struct GraphicsCode : FragmentPlan {
   Code vertex, fragment;
   std::vector<Interpolation> varyings;
   uint32_t output_slots = 0;
+  uint32_t clip_distances = 0, cull_distances = 0;
   bool fragment_reads_nothing = false;
 };
 

@@ -7,6 +7,7 @@
 #include "shaders/depth.frag.h"
 #include "shaders/interface.frag.h"
 #include "shaders/interface.vert.h"
+#include "shaders/some_distances.vert.h"
 #include "shaders/texture.frag.h"
 
 namespace lapilli {
@@ -24,8 +25,9 @@ class Stage : public testing::Test {
       slots.push_back({1, binding, VK_DESCRIPTOR_TYPE_SAMPLER, VK_SHADER_STAGE_ALL, binding * 10, 4, -1});
   }
 
-  void make(std::span<const uint32_t> fragment_words = shaders::kInterfaceFrag) {
-    const ShaderStage vertex{parse_or_fail(shaders::kInterfaceVert), "main", {}};
+  void make(std::span<const uint32_t> fragment_words = shaders::kInterfaceFrag,
+            std::span<const uint32_t> vertex_words = shaders::kInterfaceVert) {
+    const ShaderStage vertex{parse_or_fail(vertex_words), "main", {}};
     const ShaderStage fragment{parse_or_fail(fragment_words), "main", specialization};
     state.attributes = attributes;
     state.color_formats = formats;
@@ -78,6 +80,15 @@ TEST_F(Stage, OnlyWhatIsReadIsStoredAndInterpolated) {
   EXPECT_EQ(count(code.fragment, Opcode::frag_perspective), 1u);
   EXPECT_EQ(count(code.fragment, Opcode::frag_depth), 0u);
   EXPECT_EQ(count(code.fragment, Opcode::count_samples), 1u);
+}
+
+TEST_F(Stage, OnlyDistancesThatAreWrittenGetSlots) {
+  make();
+  EXPECT_EQ(code.clip_distances + code.cull_distances, 0u);
+  make(shaders::kInterfaceFrag, shaders::kSomeDistancesVert);
+  EXPECT_EQ(code.clip_distances, 1u);
+  EXPECT_EQ(code.cull_distances, 1u);
+  EXPECT_EQ(code.output_slots, kSlotVaryings + code.varyings.size() + 2);
 }
 
 TEST_F(Stage, KeepsWhatNobodyReadsIfAsked) {

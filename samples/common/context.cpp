@@ -150,6 +150,8 @@ void Context::create_device() {
   vkGetPhysicalDeviceFeatures(physical_device_, &offered);
   features.fragmentStoresAndAtomics = offered.fragmentStoresAndAtomics;
   features.vertexPipelineStoresAndAtomics = offered.vertexPipelineStoresAndAtomics;
+  features.shaderClipDistance = offered.shaderClipDistance;
+  features.shaderCullDistance = offered.shaderCullDistance;
   info.pEnabledFeatures = &features;
   check(vkCreateDevice(physical_device_, &info, nullptr, &device_), "vkCreateDevice");
   vkGetDeviceQueue(device_, queue_family_, 0, &queue_);

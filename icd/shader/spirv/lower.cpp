@@ -50,6 +50,13 @@ Result<LoweredShader> Lowering::run() {
       if (const Reg known = get_known(reg); known != kNoReg) reg = known;
     }
   }
+  // Distances that nobody writes are 0, which is inside.
+  std::erase_if(out_.distances, [&](InterfaceComponent& distance) {
+    const Reg known = get_known(distance.reg);
+    if (known != kNoReg) distance.reg = known;
+    return constant_bits(distance.reg) == 0u;
+  });
+  std::ranges::sort(out_.distances, {}, &InterfaceComponent::location);
   return std::move(out_);
 }
 

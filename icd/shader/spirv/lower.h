@@ -10,6 +10,9 @@
 
 namespace lapilli {
 
+// Where the distances of a fragment shader's input would lie: behind all Locations.
+constexpr uint32_t kClipDistanceLocation = 64, kCullDistanceLocation = kClipDistanceLocation + kMaxDistances;
+
 // One scalar of an input or output variable with a Location.
 struct InterfaceComponent {
   uint32_t location = 0;
@@ -31,7 +34,8 @@ struct LoweredShader {
   std::vector<InterfaceBuiltIn> built_in_inputs;
   std::vector<InterfaceComponent> outputs;  // registers that hold the results
   std::vector<InterfaceBuiltIn> built_in_outputs;
-  uint32_t end_label = 0;  // to be placed before `end`: where batches without lanes go
+  std::vector<InterfaceComponent> distances;  // to clip and cull planes: outputs too
+  uint32_t end_label = 0;                     // to be placed before `end`: where batches without lanes go
   bool kills = false;
   bool stores = false;  // has side effects beside its outputs
   bool early_fragment_tests = false;

@@ -10,7 +10,7 @@
 namespace lapilli::spirv {
 namespace {
 
-constexpr uint32_t kMaxLocations = 64;
+constexpr uint32_t kMaxLocations = kClipDistanceLocation;
 
 struct BuiltInRow {
   spv::BuiltIn built_in;
@@ -159,11 +159,28 @@ void Lowering::declare_interface(const SpirvInst& inst, bool output) {
   }
 }
 
-// Members of gl_PerVertex that are only declared are harmless: to use them a capability is needed, which the reader
-// refuses.
+// Distances to clip or cull planes. Where the capability is missing, members of gl_PerVertex are only declared.
+void Lowering::declare_distances(bool cull, uint32_t of, Reg first, bool output) {
+  if (std::ranges::find(m_.capabilities, cull ? spv::Capability::CullDistance : spv::Capability::ClipDistance) ==
+      m_.capabilities.end())
+    return;
+  const Type& array = type(of);
+  if (array.kind != Kind::array || type(array.element).kind != Kind::real)
+    return fail("clip and cull distances are arrays of floats");
+  if (array.count > kMaxDistances || which_ == VK_SHADER_STAGE_COMPUTE_BIT ||
+      output == (which_ == VK_SHADER_STAGE_FRAGMENT_BIT))
+    return fail("has distances that are not supported here, or more than " + std::to_string(kMaxDistances));
+  const uint32_t location = cull ? kCullDistanceLocation : kClipDistanceLocation;
+  for (uint32_t i = 0; i < array.count; ++i) {
+    InterfaceComponent entry{location + i, 0, first + i};
+    (output ? out_.distances : out_.inputs).push_back(entry);
+  }
+}
+
 void Lowering::declare_built_in(const SpirvInst& inst, uint32_t built_in, uint32_t of, Reg first, bool output) {
   const auto which = static_cast<spv::BuiltIn>(built_in);
-  if (output && (which == spv::BuiltIn::ClipDistance || which == spv::BuiltIn::CullDistance)) return;
+  if (which == spv::BuiltIn::ClipDistance || which == spv::BuiltIn::CullDistance)
+    return declare_distances(which == spv::BuiltIn::CullDistance, of, first, output);
   const auto row = std::find_if(std::begin(kBuiltIns), std::end(kBuiltIns), [&](const BuiltInRow& each) {
     return each.built_in == which && each.stage == which_ && each.output == output;
   });

@@ -275,6 +275,7 @@ class Lowering {
   void declare_globals(const SpirvEntryPoint& entry);
   void declare_interface(const SpirvInst& inst, bool output);
   void declare_built_in(const SpirvInst& inst, uint32_t built_in, uint32_t type, Reg first, bool output);
+  void declare_distances(bool cull, uint32_t type, Reg first, bool output);
   struct Place {
     uint32_t location = 0, component = 0;
     Interpolation interpolation = Interpolation::perspective;

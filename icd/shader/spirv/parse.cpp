@@ -20,6 +20,8 @@ constexpr uint32_t kVersion10 = 0x00010000, kVersion13 = 0x00010300;
 constexpr spv::Capability kCapabilities[] = {
     spv::Capability::Matrix,
     spv::Capability::Shader,
+    spv::Capability::ClipDistance,
+    spv::Capability::CullDistance,
     spv::Capability::ImageQuery,
     spv::Capability::ImageGatherExtended,
     spv::Capability::SampledBuffer,
