@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "features/drawing_fixture.h"
+#include "shaders/draw_parameters.vert.h"
 
 namespace lapilli::conformance {
 namespace {
@@ -84,6 +85,56 @@ TEST_F(Draws, IndexedIndirect) {
               vkCmdDrawIndexedIndirect(c, parameters.get(), 0, 1, sizeof(VkDrawIndexedIndirectCommand));
             }),
             (std::array<uint32_t, 3>{kNothing, kNothing, kRed}));
+}
+
+// gl_BaseVertex, gl_BaseInstance, gl_DrawID and gl_VertexIndex of the provoking vertex, also of draws that differ in
+// nothing else.
+TEST_F(Draws, ParametersInTheVertexShader) {
+  using Texel = std::array<float, 4>;
+  const Canvas target(subject(), {.width = 30, .height = 10, .color_format = VK_FORMAT_R32G32B32A32_SFLOAT});
+  const samples::PipelineLayout layout = create_layout(subject());
+  PipelineState state;
+  state.vertex_shader = shaders::kDrawParametersVert;
+  state.fragment_shader = shaders::kFlatColorFrag;
+  state.layout = layout.get();
+  state.render_pass = target.render_pass();
+  const samples::Pipeline pipeline = create_pipeline(subject(), state);
+  const auto indices = buffer_of<uint32_t>({6, 7, 8, 9, 10, 11}, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+  const auto plain = buffer_of<VkDrawIndirectCommand>({{6, 1, 0, 0}, {6, 1, 6, 0}, {6, 1, 0, 0}, {6, 1, 12, 9}},
+                                                      VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
+  const auto indexed = buffer_of<VkDrawIndexedIndirectCommand>({{6, 1, 0, -6, 3}, {6, 1, 0, 0, 3}, {6, 1, 0, 6, 3}},
+                                                               VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
+  const auto draw = [&](auto record) {
+    VkCommandBuffer commands = subject().begin_commands();
+    target.begin(commands, {});
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());
+    const VkBuffer buffer = vertices.get();
+    const VkDeviceSize offset = 0;
+    vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);
+    vkCmdBindIndexBuffer(commands, indices.get(), 0, VK_INDEX_TYPE_UINT32);
+    record(commands);
+    Canvas::end(commands);
+    subject().submit_and_wait(commands);
+    const auto image = target.read_color<Texel>();
+    return std::array<Texel, 3>{image[5 * 30 + 4], image[5 * 30 + 14], image[5 * 30 + 24]};
+  };
+  const auto of_triangle = [](std::array<Texel, 3> texels) {  // which of the two it was does not matter
+    for (Texel& texel : texels) texel[3] -= float(int(texel[3]) % 6);
+    return texels;
+  };
+  const auto direct = draw([](VkCommandBuffer c) {
+    vkCmdDraw(c, 6, 1, 0, 0);
+    vkCmdDraw(c, 6, 1, 6, 7);
+    vkCmdDrawIndexed(c, 6, 1, 0, 6, 1);
+  });
+  EXPECT_EQ(of_triangle(direct), (std::array<Texel, 3>{Texel{0, 0, 0, 0}, {6, 7, 0, 6}, {6, 1, 0, 12}}));
+  const auto indirect =
+      draw([&](VkCommandBuffer c) { vkCmdDrawIndirect(c, plain.get(), 0, 4, sizeof(VkDrawIndirectCommand)); });
+  EXPECT_EQ(of_triangle(indirect), (std::array<Texel, 3>{Texel{0, 0, 2, 0}, {6, 0, 1, 6}, {12, 9, 3, 12}}));
+  const auto both = draw([&](VkCommandBuffer c) {
+    vkCmdDrawIndexedIndirect(c, indexed.get(), 0, 3, sizeof(VkDrawIndexedIndirectCommand));
+  });
+  EXPECT_EQ(of_triangle(both), (std::array<Texel, 3>{Texel{-6, 3, 0, 0}, {0, 3, 1, 6}, {6, 3, 2, 12}}));
 }
 
 // The parameters are read when the command is executed, not when it is recorded.

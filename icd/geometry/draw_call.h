@@ -56,6 +56,7 @@ struct DrawCall {
   int32_t vertex_offset = 0;  // added to an index
   uint32_t first_instance = 0;
   uint32_t instance_count = 1;
+  uint32_t draw_index = 0;             // of those of an indirect command
   uint64_t* samples_passed = nullptr;  // occlusion query result, null: none active
   DrawLedger* ledger = nullptr;        // null: nobody asks
 };

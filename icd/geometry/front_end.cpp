@@ -189,7 +189,7 @@ void FrontEnd::fill(const Chunk& plan, Worker& worker, BinChunk& out) {
 
 // Triangles of draws with the same state are set up together. Those that have bindings in common, too, share batches of
 // vertices if the program reads resources once per draw at most, and with the same resources the vertices themselves
-// where index and instance are the same, unless the program counts who comes.
+// where index and instance are the same, unless the program counts who comes or asks for the draw.
 void FrontEnd::fill_list(std::span<const WorkItem> items, Worker& worker, BinChunk& out) {
   const SetupState state = make_setup_state(*draws_[items[0].draw].state, area_);
   TriangleList list;
@@ -208,7 +208,7 @@ void FrontEnd::fill_list(std::span<const WorkItem> items, Worker& worker, BinChu
     const DrawCall& draw = draws_[item.draw];
     if (before == nullptr || before->bindings != draw.bindings ||
         (before->resources != draw.resources && draw.state->programs->vertices_read_resources) ||
-        (before != &draw && draw.state->programs->vertices_store)) {
+        (before != &draw && (draw.state->programs->vertices_store || draw.state->programs->vertices_read_draw))) {
       if (before != nullptr) stage.run(state, out);
       if (!stage.begin(draw, *limits_)) throw std::bad_alloc();
     } else if (before->resources != draw.resources) {

@@ -26,6 +26,9 @@ bool VertexStage::begin(const DrawCall& draw, ExecutionLimits& limits) {
   instance_first_ = 0;
   parts_.clear();
   parts_.push_back({draw.resources, 0});
+  batch_.draw_parameters[0] = draw.indices.data != nullptr ? static_cast<uint32_t>(draw.vertex_offset) : draw.first;
+  batch_.draw_parameters[1] = draw.first_instance;
+  batch_.draw_parameters[2] = draw.draw_index;
   return execution_.prepare(*draw.state->programs->vertex, *draw.resources, &limits);
 }
 

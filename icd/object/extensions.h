@@ -26,6 +26,8 @@ inline constexpr std::array kExtensions = {
                   ExtensionLevel::device},
     ExtensionInfo{VK_KHR_STORAGE_BUFFER_STORAGE_CLASS_EXTENSION_NAME, VK_KHR_STORAGE_BUFFER_STORAGE_CLASS_SPEC_VERSION,
                   ExtensionLevel::device},
+    ExtensionInfo{VK_KHR_SHADER_DRAW_PARAMETERS_EXTENSION_NAME, VK_KHR_SHADER_DRAW_PARAMETERS_SPEC_VERSION,
+                  ExtensionLevel::device},
     ExtensionInfo{VK_KHR_SAMPLER_MIRROR_CLAMP_TO_EDGE_EXTENSION_NAME, VK_KHR_SAMPLER_MIRROR_CLAMP_TO_EDGE_SPEC_VERSION,
                   ExtensionLevel::device},
 };

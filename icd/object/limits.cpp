@@ -66,7 +66,7 @@ void set_vertex_limits(VkPhysicalDeviceLimits& limits) {
   limits.maxVertexInputBindingStride = kMaxVertexStride;
   limits.maxVertexOutputComponents = kMaxVaryingComponents;
   limits.maxDrawIndexedIndexValue = (1u << 24) - 1;  // fullDrawIndexUint32 is not offered
-  limits.maxDrawIndirectCount = 1;                   // multiDrawIndirect is not offered
+  limits.maxDrawIndirectCount = UINT32_MAX;
   limits.maxClipDistances = kMaxDistances;
   limits.maxCullDistances = kMaxDistances;
   limits.maxCombinedClipAndCullDistances = kMaxDistances;

@@ -65,6 +65,8 @@ VkPhysicalDeviceProperties device_properties(const PhysicalDevice& device) {
 VkPhysicalDeviceFeatures device_features() {
   VkPhysicalDeviceFeatures features = {};
   features.robustBufferAccess = VK_TRUE;
+  features.multiDrawIndirect = VK_TRUE;
+  features.drawIndirectFirstInstance = VK_TRUE;
   features.vertexPipelineStoresAndAtomics = VK_TRUE;
   features.fragmentStoresAndAtomics = VK_TRUE;
   features.shaderClipDistance = VK_TRUE;

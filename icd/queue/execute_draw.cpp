@@ -52,17 +52,19 @@ DrawCall* add_draw(CommandExecutor& executor, uint32_t count, uint32_t instances
   return &draw;
 }
 
-void draw(CommandExecutor& executor, const VkDrawIndirectCommand& command) {
+void draw(CommandExecutor& executor, const VkDrawIndirectCommand& command, uint32_t index = 0) {
   DrawCall* call = add_draw(executor, command.vertexCount, command.instanceCount);
   if (call == nullptr) return;
   call->first = command.firstVertex;
+  call->draw_index = index;
   call->first_instance = command.firstInstance;
 }
 
-void draw(CommandExecutor& executor, const VkDrawIndexedIndirectCommand& command) {
+void draw(CommandExecutor& executor, const VkDrawIndexedIndirectCommand& command, uint32_t index = 0) {
   DrawCall* call = add_draw(executor, command.indexCount, command.instanceCount);
   if (call == nullptr) return;
   call->first = command.firstIndex;
+  call->draw_index = index;
   call->vertex_offset = command.vertexOffset;
   call->first_instance = command.firstInstance;
   call->indices = executor.state.indices;
@@ -82,7 +84,7 @@ void draw_indirect(CommandExecutor& executor, const cmd::DrawIndirect& command) 
   for (uint32_t i = 0; i < command.count && executor.result == VK_SUCCESS; ++i) {
     T parameters;
     if (!read(*command.buffer, command.offset + uint64_t{i} * command.stride, parameters)) return;
-    draw(executor, parameters);
+    draw(executor, parameters, i);
   }
 }
 

@@ -36,6 +36,7 @@ struct VertexBinding {
 struct VertexBatch {
   alignas(64) uint32_t vertex_index[kBatchLanes];    // with vertexOffset / firstVertex added; all 64 initialized
   alignas(64) uint32_t instance_index[kBatchLanes];  // with firstInstance added
+  uint32_t draw_parameters[3] = {};                  // BuiltIn::base_vertex …: of one draw, if the program reads them
   const VertexBinding* bindings = nullptr;
   float* outputs = nullptr;  // [slot][kBatchLanes], slots as in ir.h (kSlotPosition …), 64-byte aligned
 };

@@ -166,7 +166,10 @@ enum class BuiltIn : uint32_t {
   blend_constant_b,
   blend_constant_a,
   helper_invocation,  // 0 or ~0
-  lane_index,         // 0..63, for tests
+  base_vertex,
+  base_instance,
+  draw_index,
+  lane_index,  // 0..63, for tests
   kCount
 };
 

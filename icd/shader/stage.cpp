@@ -68,6 +68,12 @@ BuiltIn input_of(spv::BuiltIn built_in) {
       return BuiltIn::vertex_index;
     case spv::BuiltIn::InstanceIndex:
       return BuiltIn::instance_index;
+    case spv::BuiltIn::BaseVertex:
+      return BuiltIn::base_vertex;
+    case spv::BuiltIn::BaseInstance:
+      return BuiltIn::base_instance;
+    case spv::BuiltIn::DrawIndex:
+      return BuiltIn::draw_index;
     case spv::BuiltIn::FragCoord:
       return BuiltIn::frag_coord_x;
     case spv::BuiltIn::FrontFacing:
@@ -434,6 +440,11 @@ bool read_resources(std::span<const Instruction> instructions) {
   });
 }
 
+bool reads_draw(const Instruction& instruction) {
+  return instruction.op == Opcode::builtin && instruction.imm >= static_cast<uint32_t>(BuiltIn::base_vertex) &&
+         instruction.imm <= static_cast<uint32_t>(BuiltIn::draw_index);
+}
+
 bool store(std::span<const Instruction> instructions) { return std::ranges::any_of(instructions, writes_resource); }
 
 }  // namespace
@@ -457,6 +468,7 @@ Result<GraphicsPrograms> build_graphics(const ShaderStage& vertex, const ShaderS
   out.cull_distances = code->cull_distances;
   out.fragment_reads_nothing = code->fragment_reads_nothing;
   out.vertices_read_resources = read_resources(source(*out.vertex).instructions);
+  out.vertices_read_draw = std::ranges::any_of(source(*out.vertex).instructions, reads_draw);
   out.vertices_store = store(source(*out.vertex).instructions);
   const Code& fragment_code = source(*out.fragment);
   out.fragment_reads_resources = read_resources(fragment_code.once) || read_resources(fragment_code.instructions);

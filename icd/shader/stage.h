@@ -78,7 +78,8 @@ struct GraphicsPrograms : FragmentPlan {
   // Whether a ResourceTable makes a difference to the fragment program; and to the vertex program beyond what it
   // computes once per draw.
   bool fragment_reads_resources = true, vertices_read_resources = true;
-  bool vertices_store = false;  // every vertex of a draw has to be run, whatever becomes of it
+  bool vertices_read_draw = false;  // draws cannot share vertices, nor batches of them
+  bool vertices_store = false;      // every vertex of a draw has to be run, whatever becomes of it
 };
 
 Result<GraphicsPrograms> build_graphics(const ShaderStage& vertex, const ShaderStage* fragment,

@@ -150,9 +150,22 @@ void Context::create_device() {
   vkGetPhysicalDeviceFeatures(physical_device_, &offered);
   features.fragmentStoresAndAtomics = offered.fragmentStoresAndAtomics;
   features.vertexPipelineStoresAndAtomics = offered.vertexPipelineStoresAndAtomics;
+  features.drawIndirectFirstInstance = offered.drawIndirectFirstInstance;
+  features.multiDrawIndirect = offered.multiDrawIndirect;
   features.shaderClipDistance = offered.shaderClipDistance;
   features.shaderCullDistance = offered.shaderCullDistance;
   info.pEnabledFeatures = &features;
+  std::vector<const char*> extensions;
+  uint32_t count = 0;
+  vkEnumerateDeviceExtensionProperties(physical_device_, nullptr, &count, nullptr);
+  std::vector<VkExtensionProperties> available(count);
+  vkEnumerateDeviceExtensionProperties(physical_device_, nullptr, &count, available.data());
+  for (const VkExtensionProperties& each : available) {
+    if (std::string_view(each.extensionName) == VK_KHR_SHADER_DRAW_PARAMETERS_EXTENSION_NAME)
+      extensions.push_back(VK_KHR_SHADER_DRAW_PARAMETERS_EXTENSION_NAME);
+  }
+  info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
   check(vkCreateDevice(physical_device_, &info, nullptr, &device_), "vkCreateDevice");
   vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
 

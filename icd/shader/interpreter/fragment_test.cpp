@@ -354,6 +354,7 @@ TEST(Op, builtin) {
     FragmentTest t(target, quads);
     VertexBatch vertices = {};
     for (uint32_t i = 0; i < kBatchLanes; ++i) vertices.vertex_index[i] = 3 * i, vertices.instance_index[i] = 5 * i;
+    for (uint32_t i = 0; i < 3; ++i) vertices.draw_parameters[i] = 70 + i;
     ComputeBatch compute = {{2, 3, 4}, {5, 6, 7}, 64};
     Frame& frame = t.test.frame();
     frame.vertices = &vertices;
@@ -420,6 +421,11 @@ TEST(Op, builtin) {
             break;
           case BuiltIn::helper_invocation:
             expected = (frame.lanes >> lane & 1) != 0 ? 0 : 0xFFFFFFFFu;
+            break;
+          case BuiltIn::base_vertex:
+          case BuiltIn::base_instance:
+          case BuiltIn::draw_index:
+            expected = 70 + axis(BuiltIn::base_vertex);
             break;
           case BuiltIn::lane_index:
             expected = lane;

@@ -97,6 +97,10 @@ U builtin_vector(const Frame& frame, BuiltIn which, int i) {
       return as_u(broadcast(frame.fragments->blend_constants[below(which, BuiltIn::blend_constant_r)]));
     case BuiltIn::helper_invocation:
       return mask_to_u(~mask_of(frame.lanes, i / kVectorLanes));
+    case BuiltIn::base_vertex:
+    case BuiltIn::base_instance:
+    case BuiltIn::draw_index:
+      return broadcast(frame.vertices->draw_parameters[below(which, BuiltIn::base_vertex)]);
     case BuiltIn::lane_index:
       return broadcast(static_cast<uint32_t>(i)) + lane_numbers();
     case BuiltIn::kCount:

@@ -21,6 +21,9 @@ struct BuiltInRow {
 constexpr BuiltInRow kBuiltIns[] = {
     {spv::BuiltIn::VertexIndex, VK_SHADER_STAGE_VERTEX_BIT, false, 1},
     {spv::BuiltIn::InstanceIndex, VK_SHADER_STAGE_VERTEX_BIT, false, 1},
+    {spv::BuiltIn::BaseVertex, VK_SHADER_STAGE_VERTEX_BIT, false, 1},
+    {spv::BuiltIn::BaseInstance, VK_SHADER_STAGE_VERTEX_BIT, false, 1},
+    {spv::BuiltIn::DrawIndex, VK_SHADER_STAGE_VERTEX_BIT, false, 1},
     {spv::BuiltIn::Position, VK_SHADER_STAGE_VERTEX_BIT, true, 4},
     {spv::BuiltIn::PointSize, VK_SHADER_STAGE_VERTEX_BIT, true, 1},
     {spv::BuiltIn::FragCoord, VK_SHADER_STAGE_FRAGMENT_BIT, false, 4},

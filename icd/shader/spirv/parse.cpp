@@ -31,14 +31,15 @@ constexpr spv::Capability kCapabilities[] = {
     spv::Capability::StorageImageWriteWithoutFormat,
     spv::Capability::StorageImageArrayDynamicIndexing,
     spv::Capability::DerivativeControl,
+    spv::Capability::DrawParameters,
     spv::Capability::UniformBufferArrayDynamicIndexing,
     spv::Capability::SampledImageArrayDynamicIndexing,
     spv::Capability::StorageBufferArrayDynamicIndexing,
 };
 
 constexpr std::string_view kExtensions[] = {"SPV_KHR_storage_buffer_storage_class", "SPV_KHR_non_semantic_info",
-                                            "SPV_GOOGLE_decorate_string", "SPV_GOOGLE_hlsl_functionality1",
-                                            "SPV_GOOGLE_user_type"};
+                                            "SPV_KHR_shader_draw_parameters",       "SPV_GOOGLE_decorate_string",
+                                            "SPV_GOOGLE_hlsl_functionality1",       "SPV_GOOGLE_user_type"};
 
 // Decorations whose first literal the driver reads.
 constexpr spv::Decoration kWithLiteral[] = {spv::Decoration::SpecId,        spv::Decoration::ArrayStride,
