@@ -10,6 +10,8 @@
 #include "harness/devices.h"
 #include "harness/graphics.h"
 #include "oracle/interpolate.h"
+#include "shaders/interpolate_at.frag.h"
+#include "shaders/interpolate_list.frag.h"
 #include "shaders/interpolation.frag.h"
 #include "shaders/interpolation.vert.h"
 #include "shaders/many_varyings.frag.h"
@@ -35,12 +37,14 @@ oracle::RasterState raster_state() {
   return s;
 }
 
-std::vector<Texel> draw(const std::array<Vertex, 3>& triangle, int mode, bool many = false) {
+std::vector<Texel> draw(const std::array<Vertex, 3>& triangle, int mode, bool many = false,
+                        std::span<const uint32_t> fragment_shader = {}) {
   const Canvas canvas(subject(), {.width = kSide, .height = kSide, .color_format = VK_FORMAT_R32G32B32A32_SFLOAT});
   const samples::PipelineLayout layout = create_layout(subject(), {}, 4);
   PipelineState state;
   state.vertex_shader = many ? std::span<const uint32_t>(shaders::kManyVaryingsVert) : shaders::kInterpolationVert;
   state.fragment_shader = many ? std::span<const uint32_t>(shaders::kManyVaryingsFrag) : shaders::kInterpolationFrag;
+  if (!fragment_shader.empty()) state.fragment_shader = fragment_shader;
   state.layout = layout.get();
   state.render_pass = canvas.render_pass();
   const samples::Pipeline pipeline = create_pipeline(subject(), state);
@@ -215,6 +219,66 @@ TEST(Interpolation, Derivatives) {
     if (HasFailure()) return;
   }
   EXPECT_GT(covered, 1000);
+}
+
+// interpolateAtOffset, interpolateAtSample and interpolateAtCentroid; with one sample a pixel the last two mean its
+// centre.
+TEST(Interpolation, AtOtherPlaces) {
+  enum { kSmoothAt, kLinearAt, kFlatAt, kCentroid, kSample, kMixed };
+  std::mt19937 random(8);
+  int covered = 0;
+  for (int round = 0; round < 12; ++round) {
+    const auto t = random_triangle(random, round % 3 == 0 ? 20.0f : 1.2f, false);
+    const oracle::Triangle p = {t[0].position, t[1].position, t[2].position};
+    const auto at = [&](double x, double y) {
+      return oracle::interpolate(p, raster_state(), oracle::Positions::kSnapped, x + 0.5, y + 0.5);
+    };
+    // 1/w of a point outside may come close to 0, and the value grow without bound.
+    const auto tolerance = [&](double value, const oracle::Weights& w, const oracle::Weights& here) {
+      return kTolerance * (1 + std::abs(value)) * std::max(1.0, 4 * here.inverse_w / std::max(w.inverse_w, 1e-3));
+    };
+    for (int mode = kSmoothAt; mode <= kMixed; ++mode) {
+      covered += for_covered(
+          t, draw(t, mode, false, shaders::kInterpolateAtFrag),
+          [&](int x, int y, const oracle::Weights& here, const Texel& got) {
+            const bool moved = mode < kCentroid;
+            const oracle::Weights w =
+                moved ? at(x + (x * 7 % 16) / 16.0 - 0.5, y + (y * 5 % 16) / 16.0 - 0.5) : at(x, y);
+            const double* weights = mode == kSmoothAt || mode == kCentroid ? w.perspective : w.linear;
+            if (mode == kFlatAt) {
+              EXPECT_EQ(got, t[0].value);
+            }
+            if (mode == kFlatAt || w.inverse_w < 1e-3) return;
+            for (size_t c = 0; c < 4 && mode != kMixed; ++c) {
+              const double want = mixed(t, weights, c);
+              EXPECT_NEAR(double(got[c]), want, tolerance(want, w, here)) << "mode " << mode << " " << x << "," << y;
+            }
+            if (mode != kMixed) return;
+            const oracle::Weights there = at(x + 0.25, y - 0.5);
+            if (there.inverse_w < 1e-3) return;
+            const double want[] = {mixed(t, there.perspective, 2), mixed(t, there.perspective, 3),
+                                   mixed(t, at(x + 1, y).linear, 0) - mixed(t, w.linear, 0),
+                                   mixed(t, w.perspective, 1)};
+            for (size_t c = 0; c < 4; ++c)
+              EXPECT_NEAR(double(got[c]), want[c], 4 * tolerance(want[c], there, here)) << c;
+          });
+      if (HasFailure()) return;
+    }
+    const auto list = draw(t, round, true, shaders::kInterpolateListFrag);
+    for_covered(t, list, [&](int x, int y, const oracle::Weights& here, const Texel& got) {
+      const oracle::Weights there = at(x + 0.25, y - 0.375);
+      if (there.inverse_w < 1e-3) return;
+      const int i = (x + round) % 5;
+      const double value[4] = {mixed(t, there.perspective, 0), mixed(t, there.perspective, 1), 0,
+                               mixed(t, there.perspective, 3)};
+      const double columns[3][2] = {{value[0], value[1]}, {value[3], 2}, {4, 5}};
+      const double want[] = {(i + 1) * value[0], (i + 1) * mixed(t, here.perspective, 0), columns[i % 3][0],
+                             columns[i % 3][1]};
+      for (size_t c = 0; c < 4; ++c) EXPECT_NEAR(double(got[c]), want[c], 4 * tolerance(want[c], there, here)) << c;
+    });
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(covered, 5000);
 }
 
 // Matrices, arrays and blocks as varyings.

@@ -29,7 +29,6 @@ Result<void> check_raster(const Info& info) {
 Result<void> check_fragment(const Info& info) {
   if (const auto* samples = info.pMultisampleState) {
     if (samples->rasterizationSamples != VK_SAMPLE_COUNT_1_BIT) return unsupported("multisampling is not supported");
-    if (samples->sampleShadingEnable != VK_FALSE) return unsupported("the feature sampleRateShading is not offered");
     if (samples->alphaToCoverageEnable != VK_FALSE) return unsupported("alphaToCoverageEnable is not supported");
     if (samples->alphaToOneEnable != VK_FALSE) return unsupported("the feature alphaToOne is not offered");
   }

@@ -29,9 +29,9 @@ void set_image_limits(VkPhysicalDeviceLimits& limits) {
   limits.maxTexelOffset = 7;
   limits.minTexelGatherOffset = -8;
   limits.maxTexelGatherOffset = 7;
-  limits.minInterpolationOffset = 0;  // sampleRateShading is not offered
-  limits.maxInterpolationOffset = 0;
-  limits.subPixelInterpolationOffsetBits = 0;
+  limits.minInterpolationOffset = -0.5f;
+  limits.maxInterpolationOffset = 0.5f;
+  limits.subPixelInterpolationOffsetBits = 8;  // offsets are taken as they are
 }
 
 void set_descriptor_limits(VkPhysicalDeviceLimits& limits) {

@@ -69,6 +69,7 @@ VkPhysicalDeviceFeatures device_features() {
   features.drawIndirectFirstInstance = VK_TRUE;
   features.vertexPipelineStoresAndAtomics = VK_TRUE;
   features.fragmentStoresAndAtomics = VK_TRUE;
+  features.sampleRateShading = VK_TRUE;
   features.shaderClipDistance = VK_TRUE;
   features.shaderCullDistance = VK_TRUE;
   features.shaderImageGatherExtended = VK_TRUE;

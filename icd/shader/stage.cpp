@@ -26,6 +26,9 @@ std::vector<bool> finish(LoweredShader& shader) {
   std::vector<bool> live(code.registers.size());
   for (const Instruction& instruction : code.instructions)
     for_each_operand(code, instruction, [&](Reg reg) { live[reg] = true; });
+  for (const Instruction& instruction : code.instructions) {  // at another place than the centre
+    if (instruction.op == Opcode::interpolate) live[instruction.imm] = true;
+  }
   for (Reg reg : code.kept) live[reg] = true;
   return live;
 }
@@ -249,13 +252,7 @@ void emit_sample_mask(LoweredShader& shader) {
   if (mask == nullptr) return;
   Code& code = shader.code;
   const Reg sample = code.emit(Opcode::iand, mask->regs[0], code.constant(1));
-  const Reg leaves = code.emit(Opcode::ieq, sample, code.constant(0));
-  const uint32_t gone = code.new_mask(), others = code.new_mask(), behind = code.new_label();
-  code.emit_void(Opcode::branch_if, leaves, kNoReg, kNoReg, gone, others);
-  code.emit_void(Opcode::enter, kNoReg, kNoReg, kNoReg, gone, behind);
-  code.emit_void(Opcode::kill);
-  code.place_label(behind);
-  code.emit_void(Opcode::enter, kNoReg, kNoReg, kNoReg, others, shader.end_label);
+  code.emit_void(Opcode::demote, code.emit(Opcode::ieq, sample, code.constant(0)));
 }
 
 // Behind the shader: the sample mask, late depth, the count of samples that passed (unless the shader asks for early
@@ -311,6 +308,11 @@ Varyings link_varyings(LoweredShader& shader, const std::vector<bool>& live, Rem
 void emit_fragment_prologue(LoweredShader& shader, Reg depth_reg, const Varyings& varyings,
                             const std::vector<bool>& live) {
   Code& code = shader.code;
+  for (Instruction& instruction : code.instructions) {
+    if (instruction.op != Opcode::interpolate) continue;
+    const auto at = std::ranges::find(varyings, instruction.imm, &InterfaceComponent::reg);
+    instruction.imm = static_cast<uint32_t>(at - varyings.begin());
+  }
   if (shader.early_fragment_tests) code.append(Opcode::count_samples);
   const InterfaceBuiltIn* position = find_built_in(shader.built_in_inputs, spv::BuiltIn::FragCoord);
   const bool reads_z = position != nullptr && live[position->regs[2]];

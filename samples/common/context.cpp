@@ -152,6 +152,7 @@ void Context::create_device() {
   features.vertexPipelineStoresAndAtomics = offered.vertexPipelineStoresAndAtomics;
   features.drawIndirectFirstInstance = offered.drawIndirectFirstInstance;
   features.multiDrawIndirect = offered.multiDrawIndirect;
+  features.sampleRateShading = offered.sampleRateShading;
   features.shaderClipDistance = offered.shaderClipDistance;
   features.shaderCullDistance = offered.shaderCullDistance;
   info.pEnabledFeatures = &features;

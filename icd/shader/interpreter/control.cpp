@@ -55,13 +55,6 @@ struct op_kill {
   }
 };
 
-struct op_demote {
-  static HWY_INLINE const Op* run(const Op* op, Frame* frame) {
-    frame->write &= ~frame->exec;
-    return op + 1;
-  }
-};
-
 struct op_barrier {
   static HWY_INLINE const Op* run(const Op* op, Frame* frame) {
     frame->resume = op + 1;
@@ -113,6 +106,11 @@ struct BranchIf {
 struct BranchWhere {
   static HWY_INLINE void run(const Op* op, Frame* frame, uint64_t condition) {
     frame->masks[op->imm] |= frame->exec & condition;
+  }
+};
+struct Demote {
+  static HWY_INLINE void run(const Op*, Frame* frame, uint64_t condition) {
+    frame->write &= ~(frame->exec & condition);
   }
 };
 
@@ -187,13 +185,14 @@ const HandlerEntry kEntries[] = {
     LAPILLI_CONTROL(loop),
     LAPILLI_CONTROL(jump_if_none),
     LAPILLI_CONTROL(kill),
-    LAPILLI_CONTROL(demote),
     LAPILLI_CONTROL(barrier),
     LAPILLI_ENTRY(end, kStore, end_handler),
     LAPILLI_ENTRY(branch_if, kStore, Condition<BranchIf>::from_register),
     LAPILLI_ENTRY(branch_if, kStore | kAccumulatorIsA, Condition<BranchIf>::from_accumulator),
     LAPILLI_ENTRY(branch_where, kStore, Condition<BranchWhere>::from_register),
     LAPILLI_ENTRY(branch_where, kStore | kAccumulatorIsA, Condition<BranchWhere>::from_accumulator),
+    LAPILLI_ENTRY(demote, kStore, Condition<Demote>::from_register),
+    LAPILLI_ENTRY(demote, kStore | kAccumulatorIsA, Condition<Demote>::from_accumulator),
     LAPILLI_ENTRY(set, kStore, Set::handler<kFromRegisters>),
     LAPILLI_ENTRY(set, kStore | kAccumulatorIsA, Set::handler<kAccumulatorIsA>),
     LAPILLI_ENTRY(store_output, kStore, StoreOutput::handler<kFromRegisters>),

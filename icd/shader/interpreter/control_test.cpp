@@ -159,12 +159,18 @@ TEST(Op, kill) {
 
 TEST(Op, demote) {
   for (SimdTarget target : supported_simd_targets()) {
-    ControlFrame test(target);
-    test.frame().exec = kSome;
-    test.add(Opcode::demote, kStore, Op{});
-    test.run();
-    EXPECT_EQ(test.frame().exec, kSome);
-    EXPECT_EQ(test.frame().write, ~kSome);
+    for (bool from_accumulator : {false, true}) {
+      ControlFrame test(target);
+      test.frame().exec = 0x00FFFF00FF00FFFF;
+      test.write(0, from_bits(kSome));
+      test.write(1, from_bits(~kSome));
+      if (from_accumulator) test.add(Opcode::mov, kKeep, 5, 0);
+      test.add(Opcode::demote, from_accumulator ? kAccumulatorIsA | kStore : kStore,
+               immediates(0, 0, from_accumulator ? 1 : 0));
+      test.run();
+      EXPECT_EQ(test.frame().exec, 0x00FFFF00FF00FFFFu);
+      EXPECT_EQ(test.frame().write, ~(0x00FFFF00FF00FFFFu & kSome));
+    }
   }
 }
 

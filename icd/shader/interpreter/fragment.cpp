@@ -91,6 +91,37 @@ struct op_frag_linear {
   }
 };
 
+// The same at other places; lane by lane, for it is rare.
+struct op_frag_linear_at {
+  static HWY_NOINLINE const Op* run(const Op* op, Frame* frame) {
+    const FragmentBatch& batch = *frame->fragments;
+    const float* const right = reinterpret_cast<const float*>(reg(frame, op->a));
+    const float* const down = reinterpret_cast<const float*>(reg(frame, op->b));
+    float* const d = reinterpret_cast<float*>(reg(frame, op->dst));
+    for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
+      const double dx = static_cast<double>(right[lane]), dy = static_cast<double>(down[lane]);
+      for (uint32_t e = 0; e < 2; ++e) {
+        float& lambda = d[e * kLanes + lane];
+        if (const LaneTriangles* const by_lane = batch.lane_triangles) {
+          const uint32_t t = by_lane->by_lane ? lane : by_lane->slot[lane];
+          const double x = lane % 16 / 4 * 2 + lane % 2, y = lane / 16 * 2 + lane / 2 % 2;  // in the block
+          const double a = by_lane->edge_a[e][t], b = by_lane->edge_b[e][t];
+          lambda = at(a, b, x * a + (y * b + by_lane->edge_c[e][t]), dx, dy, by_lane->inverse_area2[t]);
+        } else {
+          const TriangleSetup& t = *batch.triangle[lane / 4];
+          const double x = batch.x[lane / 4] + lane % 2, y = batch.y[lane / 4] + lane / 2 % 2;
+          const double a = t.edge_a[e + 1], b = t.edge_b[e + 1];
+          lambda = at(a, b, x * a + (y * b + t.edge_c[e + 1]), dx, dy, t.inverse_area2);
+        }
+      }
+    }
+    return op + 1;
+  }
+  static float at(double a, double b, double edge, double dx, double dy, double inverse_area2) {
+    return static_cast<float>((edge + (a * dx + b * dy)) * inverse_area2);
+  }
+};
+
 struct Depth {
   static HWY_INLINE void lanes(D e1, D e2, const TriangleSetup& t, float* d) { store(depth_at(e1, e2, t.depth), d); }
   static HWY_INLINE void quad(const QuadD& e1, const QuadD& e2, const TriangleSetup& t, float* d) {
@@ -348,17 +379,10 @@ struct op_blend_color {
 };
 
 const HandlerEntry kEntries[] = {
-    LAPILLI_FAT(frag_linear, false),
-    LAPILLI_FAT(frag_perspective, false),
-    LAPILLI_FAT(frag_depth, true),
-    LAPILLI_FAT(interpolate, true),
-    LAPILLI_FAT(interpolate_flat, true),
-    LAPILLI_FAT(depth_test, false),
-    LAPILLI_CONTROL(count_samples),
-    LAPILLI_FAT(load_color, false),
-    LAPILLI_FAT(store_color, false),
-    LAPILLI_FAT(blend_color, false),
-    LAPILLI_FAT(interpolate_perspective, true),
+    LAPILLI_FAT(frag_linear, false), LAPILLI_FAT(frag_linear_at, false), LAPILLI_FAT(frag_perspective, false),
+    LAPILLI_FAT(frag_depth, true),   LAPILLI_FAT(interpolate, true),     LAPILLI_FAT(interpolate_flat, true),
+    LAPILLI_FAT(depth_test, false),  LAPILLI_CONTROL(count_samples),     LAPILLI_FAT(load_color, false),
+    LAPILLI_FAT(store_color, false), LAPILLI_FAT(blend_color, false),    LAPILLI_FAT(interpolate_perspective, true),
 };
 
 }  // namespace

@@ -34,6 +34,30 @@ TEST(Op, frag_linear) {
   });
 }
 
+TEST(Op, frag_linear_at) {
+  for_all([](SimdTarget target, Quads quads) {
+    FragmentTest t(target, quads);
+    std::mt19937 random(9);
+    std::uniform_real_distribution<float> offset(-0.5f, 0.5f);
+    Lanes right, down;
+    for (uint32_t lane = 0; lane < kBatchLanes; ++lane) right[lane] = u(offset(random)), down[lane] = u(offset(random));
+    t.test.write(0, right);
+    t.test.write(1, down);
+    const Lanes l1 = t.run(Opcode::frag_linear_at, operands(4, 0, 1));
+    const Lanes l2 = t.result_of(5);
+    for (uint32_t lane = 0; lane < kBatchLanes; ++lane) {
+      const TriangleSetup& triangle = t.triangle(lane);
+      const double x = static_cast<double>(f(right[lane])), y = static_cast<double>(f(down[lane]));
+      const auto expected = [&](int e) {
+        const double step = triangle.edge_a[e] * x + triangle.edge_b[e] * y;
+        return u(static_cast<float>((t.edge_value(lane, e) + step) * triangle.inverse_area2));
+      };
+      EXPECT_EQ(l1[lane], expected(1));
+      EXPECT_EQ(l2[lane], expected(2));
+    }
+  });
+}
+
 TEST(Op, frag_depth) {
   for_all([](SimdTarget target, Quads quads) {
     if (quads >= Quads::lanes) return;  // not for programs that read depth

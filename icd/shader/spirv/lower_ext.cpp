@@ -72,6 +72,8 @@ uint32_t operand_count(uint32_t number) {
     case GLSLstd450Distance:
     case GLSLstd450Cross:
     case GLSLstd450Reflect:
+    case GLSLstd450InterpolateAtSample:
+    case GLSLstd450InterpolateAtOffset:
       return 2;
     default:
       return 1;
@@ -93,6 +95,10 @@ void Lowering::lower_ext_inst(const SpirvInst& inst) {
     case GLSLstd450Frexp:
     case GLSLstd450FrexpStruct:
       return lower_parts(inst);
+    case GLSLstd450InterpolateAtCentroid:
+    case GLSLstd450InterpolateAtSample:
+    case GLSLstd450InterpolateAtOffset:
+      return lower_interpolation(inst);
     case GLSLstd450Determinant:
     case GLSLstd450MatrixInverse:
       return lower_matrix_function(inst);

@@ -29,6 +29,9 @@ constexpr BuiltInRow kBuiltIns[] = {
     {spv::BuiltIn::FragCoord, VK_SHADER_STAGE_FRAGMENT_BIT, false, 4},
     {spv::BuiltIn::FrontFacing, VK_SHADER_STAGE_FRAGMENT_BIT, false, 1},
     {spv::BuiltIn::HelperInvocation, VK_SHADER_STAGE_FRAGMENT_BIT, false, 1},
+    {spv::BuiltIn::SampleId, VK_SHADER_STAGE_FRAGMENT_BIT, false, 1},
+    {spv::BuiltIn::SamplePosition, VK_SHADER_STAGE_FRAGMENT_BIT, false, 2},
+    {spv::BuiltIn::PointCoord, VK_SHADER_STAGE_FRAGMENT_BIT, false, 2},
     {spv::BuiltIn::SampleMask, VK_SHADER_STAGE_FRAGMENT_BIT, false, 1},
     {spv::BuiltIn::SampleMask, VK_SHADER_STAGE_FRAGMENT_BIT, true, 1},
     {spv::BuiltIn::FragDepth, VK_SHADER_STAGE_FRAGMENT_BIT, true, 1},
@@ -191,6 +194,7 @@ void Lowering::declare_built_in(const SpirvInst& inst, uint32_t built_in, uint32
     return fail("built-in " + spirv_enum_name(SpirvEnum::BuiltIn, built_in) + " is not supported here");
   if (type(of).components != row->components)
     return fail("built-in " + spirv_enum_name(SpirvEnum::BuiltIn, built_in) + " has the wrong type");
+  if (!output && declare_sample_input(which, first, row->components)) return;
   InterfaceBuiltIn entry;
   entry.built_in = which;
   entry.word = inst.word;

@@ -253,6 +253,7 @@ class Lowering {
   bool lower_ext_geometric(const SpirvInst& inst);
   bool lower_ext_packing(const SpirvInst& inst);
   void lower_matrix_function(const SpirvInst& inst);
+  void lower_interpolation(const SpirvInst& inst);
   void lower_parts(const SpirvInst& inst);  // Modf, Frexp and their Struct forms
   bool lower_image(const SpirvInst& inst);
   // Ids, 0: not given; offsets are 2 or 8 registers.
@@ -275,6 +276,7 @@ class Lowering {
   void declare_globals(const SpirvEntryPoint& entry);
   void declare_interface(const SpirvInst& inst, bool output);
   void declare_built_in(const SpirvInst& inst, uint32_t built_in, uint32_t type, Reg first, bool output);
+  bool declare_sample_input(spv::BuiltIn which, Reg first, uint64_t count);  // lower_interpolation.cpp
   void declare_distances(bool cull, uint32_t type, Reg first, bool output);
   struct Place {
     uint32_t location = 0, component = 0;

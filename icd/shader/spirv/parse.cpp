@@ -22,6 +22,8 @@ constexpr spv::Capability kCapabilities[] = {
     spv::Capability::Shader,
     spv::Capability::ClipDistance,
     spv::Capability::CullDistance,
+    spv::Capability::SampleRateShading,
+    spv::Capability::InterpolationFunction,
     spv::Capability::ImageQuery,
     spv::Capability::ImageGatherExtended,
     spv::Capability::SampledBuffer,
