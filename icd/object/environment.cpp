@@ -11,6 +11,7 @@
 #include "base/log.h"
 #include "base/removals.h"
 #include "base/simd_dispatch.h"
+#include "shader/passes/passes.h"
 
 namespace lapilli {
 namespace {
@@ -29,6 +30,11 @@ std::optional<long> positive_number(const char* variable, long max) {
   if (errno == 0 && *end == 0 && value >= 1 && value <= max) return value;
   log_warning("%s=%s is not a number from 1 to %ld", variable, text, max);
   return std::nullopt;
+}
+
+bool is_on(const char* variable) {
+  const char* const text = std::getenv(variable);
+  return text != nullptr && *text != 0 && std::strcmp(text, "0") != 0;
 }
 
 // CPUs that the process may use.
@@ -62,8 +68,8 @@ Environment read_environment() {
   Environment environment;
   const unsigned cpus = cpu_count();
   environment.threads = static_cast<unsigned>(positive_number("LAPILLI_THREADS", kMaxThreads).value_or(cpus));
-  const char* const stats = std::getenv("LAPILLI_STATS");
-  environment.stats = stats != nullptr && *stats != 0 && std::strcmp(stats, "0") != 0;
+  environment.stats = is_on("LAPILLI_STATS");
+  set_dump_passes(is_on("LAPILLI_DUMP"));
   if (cpus > 1) environment.spin = kSpin;
   if (const auto timeout = positive_number("LAPILLI_TIMEOUT_MS", kMaxTimeoutMs)) {
     environment.timeout = std::chrono::milliseconds(*timeout);

@@ -1,5 +1,5 @@
 // The driver's environment variables: LAPILLI_LOG, LAPILLI_THREADS, LAPILLI_SIMD, LAPILLI_TIMEOUT_MS,
-// LAPILLI_KEEP, LAPILLI_STATS.
+// LAPILLI_KEEP, LAPILLI_STATS, LAPILLI_DUMP.
 #pragma once
 
 #include <chrono>

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cassert>
 #include <cinttypes>
+#include <cstdio>
 
 #include "base/text.h"
 #include "image/format.h"
@@ -179,6 +180,7 @@ Result<ProgramPtr> assemble(Code code) {
   program->source = std::move(code);
   Assembler assembler(*program);
   if (Result<void> done = assembler.run(); !done) return done.error();
+  if (dumps_passes()) std::fprintf(stderr, "--- program\n%s", disassemble(*program).c_str());
   return program;
 }
 

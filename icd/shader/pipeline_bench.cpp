@@ -1,9 +1,9 @@
 // What it costs to make the programs of a pipeline, from a module that is parsed already and from its words.
 #include <benchmark/benchmark.h>
 
-#include <cstdio>
 #include <cstdlib>
 
+#include "shader/passes/passes.h"
 #include "shader/stage_code.h"
 #include "shaders/corpus.h"
 
@@ -48,11 +48,9 @@ void build(benchmark::State& bench, const CorpusShader& vertex_shader, const Cor
   const ShaderStage vertex{parsed(vertex_shader.words), "main", {}};
   const ShaderStage fragment{parsed(fragment_shader.words), "main", {}};
   if (std::getenv("LAPILLI_DUMP") != nullptr) {
-    const Result<GraphicsPrograms> programs = build_graphics(vertex, &fragment, setting.state, setting.layout());
-    if (programs) {
-      std::printf("%s\n%s\n%s\n%s\n", vertex_shader.name.data(), disassemble(*programs->vertex).c_str(),
-                  fragment_shader.name.data(), disassemble(*programs->fragment).c_str());
-    }
+    set_dump_passes(true);
+    (void)build_graphics(vertex, &fragment, setting.state, setting.layout());
+    set_dump_passes(false);
   }
   for (auto _ : bench) {
     const Result<GraphicsPrograms> programs = build_graphics(vertex, &fragment, setting.state, setting.layout());

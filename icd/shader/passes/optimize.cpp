@@ -1,15 +1,36 @@
 // The order of the passes, and what they share.
+#include <atomic>
+#include <cstdio>
+
 #include "base/removals.h"
 #include "shader/passes/passes.h"
 
 namespace lapilli {
+namespace {
+
+std::atomic<bool> dumps{false};
+
+void dump(const char* when, const Code& code) {
+  if (dumps_passes()) std::fprintf(stderr, "--- %s\n%s", when, disassemble(code).c_str());
+}
+
+}  // namespace
+
+bool dumps_passes() { return dumps.load(std::memory_order_relaxed); }
+void set_dump_passes(bool on) { dumps.store(on, std::memory_order_relaxed); }
 
 void optimize(Code& code, SimdTarget target) {
+  dump("lowered", code);
   flatten(code);
+  dump("flatten", code);
   simplify(code, target);
+  dump("simplify", code);
   remove_dead_code(code);
+  dump("dead code", code);
   if (!keeps(Removal::uniforms)) split_once(code);
+  dump("once", code);
   schedule(code);
+  dump("schedule", code);
 }
 
 bool is_pure(const Instruction& instruction) {

@@ -12,6 +12,9 @@ namespace lapilli {
 
 // All of the passes below, up to scheduling; split_once unless LAPILLI_KEEP names uniforms.
 void optimize(Code& code, SimdTarget target);
+// Whether every program goes to stderr: as it was lowered, after each pass, and as the interpreter runs it.
+bool dumps_passes();
+void set_dump_passes(bool on);
 
 // Leaves out branches to the next block, and computes both sides of short ifs in all lanes, to choose from.
 void flatten(Code& code);

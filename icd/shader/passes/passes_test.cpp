@@ -27,6 +27,25 @@ void output(Code& code, Reg reg, uint32_t slot = 0) {
 
 constexpr uint32_t kUniforms = 1u << static_cast<uint32_t>(Removal::uniforms);
 
+// Each pass shows what it made of the program.
+TEST(Passes, Dump) {
+  Code code;
+  output(code, code.emit(Opcode::fadd, code.constant_f(1), code.constant_f(2)));
+  code.emit_void(Opcode::end);
+  set_dump_passes(true);
+  testing::internal::CaptureStderr();
+  EXPECT_TRUE(assemble(std::move(code)).ok());
+  const std::string text = testing::internal::GetCapturedStderr();
+  set_dump_passes(false);
+  size_t at = 0;
+  for (const char* when : {"lowered", "flatten", "simplify", "dead code", "once", "schedule", "program"}) {
+    at = text.find(std::string("--- ") + when + "\n", at);
+    ASSERT_NE(at, std::string::npos) << when;
+  }
+  EXPECT_NE(text.find("fadd"), std::string::npos);
+  EXPECT_EQ(text.find("fadd", at), std::string::npos);
+}
+
 // Push constants stand for values of any kind here; but for the tests of Once they stay in lanes.
 Code finished(Code code, bool split = false) {
   code.emit_void(Opcode::end);
