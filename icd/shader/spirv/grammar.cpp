@@ -2,6 +2,7 @@
 #include "shader/spirv/grammar.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 namespace lapilli {
@@ -33,7 +34,24 @@ constexpr const char* kEnumNames[] = {"BuiltIn",        "Capability", "Decoratio
 
 }  // namespace
 
+namespace {
+
+// Most opcodes are small: their places in the list, one behind; 0 is none.
+constexpr uint32_t kSmallOpcodes = 512;
+constexpr auto kPlaces = [] {
+  std::array<uint16_t, kSmallOpcodes> places = {};
+  uint16_t place = 0;
+  for (const SpirvOpInfo& info : kInstructions) {
+    ++place;
+    if (info.opcode < kSmallOpcodes) places[info.opcode] = place;
+  }
+  return places;
+}();
+
+}  // namespace
+
 const SpirvOpInfo* find_spirv_op(uint32_t opcode) {
+  if (opcode < kSmallOpcodes) return kPlaces[opcode] == 0 ? nullptr : &kInstructions[kPlaces[opcode] - 1];
   const auto at = std::lower_bound(std::begin(kInstructions), std::end(kInstructions), opcode,
                                    [](const SpirvOpInfo& info, uint32_t key) { return info.opcode < key; });
   return at != std::end(kInstructions) && at->opcode == opcode ? &*at : nullptr;

@@ -16,9 +16,9 @@ Lowering::Lowering(const ShaderStage& stage, VkShaderStageFlagBits which, const 
   values_.emplace_back();
   types_of_.resize(m_.ids.size());
   constants_of_.resize(m_.ids.size());
-  constexpr size_t kSome = 512;
-  code_.instructions.reserve(kSome);
-  code_.registers.reserve(2 * kSome);
+  const size_t some = std::clamp<size_t>(m_.words.size() / 4, 256, 1 << 15);  // about one for each instruction
+  code_.instructions.reserve(some);
+  code_.registers.reserve(2 * some);
 }
 
 Result<LoweredShader> Lowering::run() {

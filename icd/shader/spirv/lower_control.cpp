@@ -177,8 +177,8 @@ void Lowering::lower_terminator(const SpirvInst& inst) {
       if (const auto bits = constant_bits(condition)) return go_to(*bits != 0 ? yes : no);
       if (yes == no) return go_to(yes);
       if (!failed() && code_.registers[condition].kind == RegKind::variable) condition = emit(Opcode::mov, condition);
-      make_edge(yes, condition, false);
-      make_edge(no, condition, true);
+      make_edge(yes, condition, false, false);
+      make_edge(no, condition, true, true);
       const uint32_t yes_mask = mark_pending(frame_->blocks[yes]);
       const uint32_t no_mask = mark_pending(frame_->blocks[no]);
       return code_.emit_void(Opcode::branch_if, condition, kNoReg, kNoReg, yes_mask, no_mask);
@@ -238,7 +238,7 @@ void Lowering::go_to(uint32_t target) {
     return;
   }
   target = destination(target);
-  make_edge(target, kNoReg, false);
+  make_edge(target, kNoReg, false, true);
   code_.emit_void(Opcode::branch, kNoReg, kNoReg, kNoReg, mark_pending(frame_->blocks[target]));
 }
 
@@ -272,9 +272,9 @@ void Lowering::lower_switch(const SpirvInst& inst) {
   }
   for (const auto& [target, condition] : targets) {
     any = any == kNoReg ? condition : emit(Opcode::ior, any, condition);
-    make_edge(target, condition, false);
+    make_edge(target, condition, false, false);
   }
-  make_edge(fallback, any, true);
+  make_edge(fallback, any, true, true);
   for (const auto& [target, condition] : targets)
     code_.emit_void(Opcode::branch_where, condition, kNoReg, kNoReg, mark_pending(frame_->blocks[target]));
   const Reg none = emit(Opcode::inot, any);
@@ -298,13 +298,14 @@ void Lowering::lower_return(const SpirvInst& inst) {
     frame_->returned = variables;
   }
   for (size_t i = 0; i < value.size(); ++i) assign(frame_->returned[i], value[i]);
-  join_known(frame_->exit, known_, first_inner_register(kNoBlock));
+  join_known(frame_->exit, first_inner_register(kNoBlock), true);
   code_.emit_void(Opcode::branch, kNoReg, kNoReg, kNoReg, mark_pending(frame_->exit));
 }
 
-void Lowering::make_edge(uint32_t target, Reg condition, bool negate) {
+// `last`: no other edge leaves the block.
+void Lowering::make_edge(uint32_t target, Reg condition, bool negate, bool last) {
   copy_to_phis(target, condition, negate);
-  join_known(frame_->blocks[target], known_, first_inner_register(frame_->function->blocks[target].position));
+  join_known(frame_->blocks[target], first_inner_register(frame_->function->blocks[target].position), last);
 }
 
 // All phis of the target at once: what one of them overwrites is saved first if another one reads it. Lanes that go
@@ -393,21 +394,26 @@ Reg Lowering::first_inner_register(uint32_t target_position) const {
 }
 
 // What is known of variables where several ways meet is what is the same on all of them.
-void Lowering::join_known(BlockState& state, const Known& known, Reg first_inner) {
+void Lowering::join_known(BlockState& state, Reg first_inner, bool last) {
+  const auto stays_inside = [&](const auto& entry) {
+    return entry.second >= first_inner && code_.registers[entry.second].kind != RegKind::constant;
+  };
   const bool first = !state.reached;
-  Known joined;
-  if (first) joined.reserve(known.size());
-  auto other = state.known.begin();
-  for (const auto& entry : known) {
-    if (entry.second >= first_inner && code_.registers[entry.second].kind != RegKind::constant) continue;
-    if (!first) {
-      while (other != state.known.end() && other->first < entry.first) ++other;
-      if (other == state.known.end() || *other != entry) continue;
-    }
-    joined.push_back(entry);
-  }
-  state.known = std::move(joined);
   state.reached = true;
+  if (first) {
+    if (last) {
+      state.known = std::move(known_);
+    } else {
+      state.known = known_;
+    }
+    if (first_inner != kNoReg) std::erase_if(state.known, stays_inside);
+    return;
+  }
+  auto other = known_.begin();
+  std::erase_if(state.known, [&](const auto& entry) {
+    while (other != known_.end() && other->first < entry.first) ++other;
+    return other == known_.end() || *other != entry || stays_inside(entry);
+  });
 }
 
 uint32_t Lowering::root_of_pointer(uint32_t id) const {

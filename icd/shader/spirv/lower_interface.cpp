@@ -167,9 +167,7 @@ void Lowering::declare_interface(const SpirvInst& inst, bool output) {
 
 // Distances to clip or cull planes. Where the capability is missing, members of gl_PerVertex are only declared.
 void Lowering::declare_distances(bool cull, uint32_t of, Reg first, bool output) {
-  if (std::ranges::find(m_.capabilities, cull ? spv::Capability::CullDistance : spv::Capability::ClipDistance) ==
-      m_.capabilities.end())
-    return;
+  if (!m_.declares(cull ? spv::Capability::CullDistance : spv::Capability::ClipDistance)) return;
   const Type& array = type(of);
   if (array.kind != Kind::array || type(array.element).kind != Kind::real)
     return fail("clip and cull distances are arrays of floats");

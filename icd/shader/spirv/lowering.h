@@ -197,13 +197,13 @@ class Lowering {
   void go_to(uint32_t target);  // unconditional
   uint32_t destination(uint32_t target) const;
   spv::Op first_op(const SpirvBlock& block) const;
-  void make_edge(uint32_t target, Reg condition, bool negate);
+  void make_edge(uint32_t target, Reg condition, bool negate, bool last);
   void copy_to_phis(uint32_t target, Reg condition, bool negate);
   uint32_t mark_pending(BlockState& state);  // its mask
   void enter(BlockState& state);
   void place_skip_label();
   void export_from_loop(uint32_t id);
-  void join_known(BlockState& state, const Known& known, Reg first_inner);
+  void join_known(BlockState& state, Reg first_inner, bool last);
   Reg first_inner_register(uint32_t target_position) const;
   void forget_stored_in_loop(uint32_t loop);
   uint32_t root_of_pointer(uint32_t id) const;

@@ -127,9 +127,10 @@ std::string_view spirv_string(const uint32_t* words, uint32_t max_words);
 // Reads the body of the function that starts at `word` (OpFunction) and moves `word` behind OpFunctionEnd.
 Result<SpirvFunction> read_function(const SpirvModule& module, uint32_t& word);
 // Blocks in structured order, loops, reachability; phis fit their predecessors.
-Result<void> order_blocks(const SpirvModule& module, SpirvFunction& function);
+// `positions`: memory for check_uses, which the functions share; empty at first.
+Result<void> order_blocks(const SpirvModule& module, SpirvFunction& function, std::vector<uint32_t>& positions);
 // Each use of an id is dominated by its definition, in the same function or outside of all; fills `escaping`.
-Result<void> check_uses(const SpirvModule& module, SpirvFunction& function);
+Result<void> check_uses(const SpirvModule& module, SpirvFunction& function, std::vector<uint32_t>& positions);
 // A type's declaration is one that is supported and well formed.
 Result<void> check_type(const SpirvModule& module, const SpirvInst& inst);
 

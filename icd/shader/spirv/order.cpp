@@ -13,8 +13,8 @@ constexpr size_t kMaxBlocks = 1 << 15;
 
 class Orderer {
  public:
-  Orderer(const SpirvModule& module, SpirvFunction& function)
-      : m_(module), f_(function), reachable_(function.blocks.size()) {}
+  Orderer(const SpirvModule& module, SpirvFunction& function, std::vector<uint32_t>& positions)
+      : m_(module), f_(function), reachable_(function.blocks.size()), positions_(positions) {}
 
   Result<void> run() {
     if (f_.blocks.size() > kMaxBlocks) return m_.error(f_.word, "has too many blocks");
@@ -42,7 +42,7 @@ class Orderer {
     for (const uint32_t index : f_.order) {
       if (Result<void> r = check_phis(f_.blocks[index]); !r) return r;
     }
-    return check_uses(m_, f_);
+    return check_uses(m_, f_, positions_);
   }
 
  private:
@@ -148,12 +148,13 @@ class Orderer {
   const SpirvModule& m_;
   SpirvFunction& f_;
   std::vector<bool> reachable_;
+  std::vector<uint32_t>& positions_;
 };
 
 }  // namespace
 
-Result<void> order_blocks(const SpirvModule& module, SpirvFunction& function) {
-  return Orderer(module, function).run();
+Result<void> order_blocks(const SpirvModule& module, SpirvFunction& function, std::vector<uint32_t>& positions) {
+  return Orderer(module, function, positions).run();
 }
 
 }  // namespace lapilli

@@ -81,8 +81,9 @@ class Parser {
     std::sort(m_.decorations.begin(), m_.decorations.end());
     if (Result<void> r = expand_groups(); !r) return r;
     std::sort(m_.decorations.begin(), m_.decorations.end());
+    std::vector<uint32_t> positions;
     for (SpirvFunction& function : m_.functions) {
-      if (Result<void> r = order_blocks(m_, function); !r) return r;
+      if (Result<void> r = order_blocks(m_, function, positions); !r) return r;
     }
     return check_entry_points_and_calls();
   }

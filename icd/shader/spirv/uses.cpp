@@ -1,6 +1,5 @@
 // Checks that definitions dominate their uses, and finds the values that loops hand out.
 #include <algorithm>
-#include <unordered_map>
 
 #include "shader/spirv/grammar.h"
 #include "shader/spirv/module.h"
@@ -10,15 +9,21 @@ namespace {
 
 class UseChecker {
  public:
-  UseChecker(const SpirvModule& module, SpirvFunction& function) : m_(module), f_(function) {}
+  UseChecker(const SpirvModule& module, SpirvFunction& function, std::vector<uint32_t>& positions)
+      : m_(module), f_(function), definition_(positions) {
+    definition_.resize(m_.ids.size(), kNoBlock);
+  }
 
   Result<void> run() {
     find_dominators();
     for (const uint32_t id : f_.parameters) definition_[id] = 0;
+    std::vector<uint32_t> defined = f_.parameters;
     for (uint32_t position = 0; position < f_.order.size(); ++position) {
       for_each_instruction(position, [&](const SpirvInst& inst) {
         const char* signature = signature_of(inst);
-        if (signature[0] == 't' && signature[1] == 'r') definition_[inst[2]] = position;
+        if (signature[0] != 't' || signature[1] != 'r') return;
+        definition_[inst[2]] = position;
+        defined.push_back(inst[2]);
       });
     }
     Result<void> result;
@@ -27,6 +32,7 @@ class UseChecker {
         if (result.ok()) result = check(inst, position);
       });
     }
+    for (const uint32_t id : defined) definition_[id] = kNoBlock;
     std::sort(f_.escaping.begin(), f_.escaping.end());
     f_.escaping.erase(std::unique(f_.escaping.begin(), f_.escaping.end()), f_.escaping.end());
     return result;
@@ -93,13 +99,12 @@ class UseChecker {
         if (parent == kNoBlock || f_.blocks[parent].position == kNoBlock) return;
         place = f_.blocks[parent].position;
       }
-      const auto found = definition_.find(id);
-      if (found == definition_.end()) {
+      const uint32_t from = definition_[id];
+      if (from == kNoBlock) {
         if (m_.ids[id].word >= m_.functions_start)
           bad = id;  // of another function, or in a block that is never reached
         return;
       }
-      const uint32_t from = found->second;
       const bool before = from != place ? first_[place] >= first_[from] && first_[place] <= last_[from]
                                         : inst.op == spv::Op::OpPhi || m_.ids[id].word < inst.word;
       if (!before) bad = id;
@@ -112,14 +117,14 @@ class UseChecker {
 
   const SpirvModule& m_;
   SpirvFunction& f_;
-  std::vector<uint32_t> first_, last_;                 // by position
-  std::unordered_map<uint32_t, uint32_t> definition_;  // id -> position of its block
+  std::vector<uint32_t> first_, last_;  // by position
+  std::vector<uint32_t>& definition_;   // id -> position of its block
 };
 
 }  // namespace
 
-Result<void> check_uses(const SpirvModule& module, SpirvFunction& function) {
-  return UseChecker(module, function).run();
+Result<void> check_uses(const SpirvModule& module, SpirvFunction& function, std::vector<uint32_t>& positions) {
+  return UseChecker(module, function, positions).run();
 }
 
 }  // namespace lapilli
