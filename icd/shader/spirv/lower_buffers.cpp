@@ -27,6 +27,7 @@ void Lowering::collect_offsets(const Pointer& from, std::vector<uint64_t>& offse
     return;
   }
   if (whole.kind == Kind::runtime_array) return fail("is no value of a known size");
+  if (whole.components == 0 && whole.has_value()) return;
   for (uint32_t i = 0; i < whole.count && !failed(); ++i) {
     Pointer part = from;
     switch (whole.kind) {

@@ -220,6 +220,7 @@ void Lowering::declare_located(uint32_t id, Place& place, Reg& next) {
   const Type& whole = type(id);
   if (place.location >= kMaxLocations) return fail("its Location is too large");
   const Kind kind = scalar_kind(whole);
+  if (whole.components == 0) return;
   if (kind == Kind::none) {
     if (whole.kind == Kind::structure) {
       for (uint32_t i = 0; i < whole.count && !failed(); ++i) declare_located(whole.members[i], place, next);

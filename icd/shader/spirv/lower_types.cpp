@@ -102,6 +102,7 @@ Lowering::Element Lowering::element(uint32_t composite, uint32_t index) {
 
 void Lowering::collect_scalar_kinds(uint32_t id, std::vector<Kind>& kinds) {
   const Type& whole = type(id);
+  if (whole.components == 0) return;
   if (whole.is_scalar()) {
     kinds.push_back(whole.kind);
   } else if (whole.kind == Kind::structure) {

@@ -54,7 +54,8 @@ struct Type {
   bool is_scalar() const { return kind >= Kind::boolean && kind <= Kind::real; }
   bool is_integer() const { return kind == Kind::sint || kind == Kind::uint; }
   bool is_handle() const { return kind >= Kind::image; }
-  // Structures may be empty.
+  // Structures may be empty, and arrays of them are as long as they like: whoever walks through a type stops at
+  // nothing.
   bool has_value() const { return components != 0 || kind == Kind::structure || kind == Kind::array; }
 };
 

@@ -13,7 +13,7 @@ using spv::Op;
 enum Ids : uint32_t { kVoid = 1, kFunctionType, kMain, kEntryLabel, kUint, kFloat, kOne, kFree };
 
 struct Assembler {
-  std::vector<uint32_t> head, annotations, globals, body, functions;
+  std::vector<uint32_t> head, interface, annotations, globals, body, functions;
   uint32_t version = 0x00010000;
 
   static void add(std::vector<uint32_t>& to, Op op, std::initializer_list<uint32_t> operands) {
@@ -35,8 +35,11 @@ struct Assembler {
     const auto append = [&](const std::vector<uint32_t>& part) { all.insert(all.end(), part.begin(), part.end()); };
     append(head);
     add(all, Op::OpMemoryModel, {0, 1});
+    const size_t entry = all.size();
     add(all, Op::OpEntryPoint,
         {static_cast<uint32_t>(spv::ExecutionModel::GLCompute), kMain, 0x6E69616D, 0});  // "main"
+    append(interface);
+    all[entry] += static_cast<uint32_t>(interface.size()) << 16;
     add(all, Op::OpExecutionMode, {kMain, static_cast<uint32_t>(spv::ExecutionMode::LocalSize), 1, 1, 1});
     append(annotations);
     append(globals);
@@ -293,6 +296,24 @@ TEST(SpirvRefuse, DeepTypes) {
   words = a.words();
   words[3] = 300;
   EXPECT_NE(outcome(words).find("nested too deeply"), std::string::npos);
+}
+
+// 2^64 - 2^33 + 1 structures without members: nobody counts them.
+TEST(SpirvRefuse, ManyTimesNothing) {
+  for (const spv::StorageClass from : {spv::StorageClass::Workgroup, spv::StorageClass::Input}) {
+    EXPECT_EQ(outcome_of([&](Assembler& a) {
+                a.interface = {25};
+                a.add(a.annotations, Op::OpDecorate, {25, static_cast<uint32_t>(spv::Decoration::Location), 0});
+                a.add(a.globals, Op::OpConstant, {kUint, 20, 0xFFFFFFFF});
+                a.add(a.globals, Op::OpTypeStruct, {21});
+                a.add(a.globals, Op::OpTypeArray, {22, 21, 20});
+                a.add(a.globals, Op::OpTypeArray, {23, 22, 20});
+                a.add(a.globals, Op::OpTypePointer, {24, static_cast<uint32_t>(from), 23});
+                a.add(a.globals, Op::OpVariable, {24, 25, static_cast<uint32_t>(from)});
+                a.add(a.body, Op::OpLoad, {23, 26, 25});
+              }),
+              "");
+  }
 }
 
 // Each function calls the next one twice: 2^19 times the last one, were it inlined.
