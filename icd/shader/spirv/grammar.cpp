@@ -32,10 +32,6 @@ constexpr EnumName kNames[] = {
 constexpr const char* kEnumNames[] = {"BuiltIn",        "Capability", "Decoration",    "Dim",         "ExecutionMode",
                                       "ExecutionModel", "ExtInst",    "ImageOperands", "StorageClass"};
 
-}  // namespace
-
-namespace {
-
 // Most opcodes are small: their places in the list, one behind; 0 is none.
 constexpr uint32_t kSmallOpcodes = 512;
 constexpr auto kPlaces = [] {
