@@ -10,12 +10,17 @@
 #include "shader/spirv/test/try_module.h"
 #include "shaders/atomics.comp.h"
 #include "shaders/control.comp.h"
+#include "shaders/distances.frag.h"
+#include "shaders/empty.comp.h"
 #include "shaders/functions.comp.h"
+#include "shaders/image_atomics.frag.h"
 #include "shaders/interface.frag.h"
 #include "shaders/interface.vert.h"
+#include "shaders/interpolate_at.frag.h"
 #include "shaders/memory.comp.h"
 #include "shaders/phis.comp.h"
 #include "shaders/shared_types.comp.h"
+#include "shaders/some_distances.vert.h"
 #include "shaders/special.comp.h"
 #include "shaders/texture.frag.h"
 
@@ -23,9 +28,10 @@ namespace lapilli {
 namespace {
 
 const std::span<const uint32_t> kSamples[] = {
-    shaders::kAtomicsComp,   shaders::kSharedTypesComp, shaders::kControlComp, shaders::kFunctionsComp,
-    shaders::kInterfaceFrag, shaders::kInterfaceVert,   shaders::kMemoryComp,  shaders::kPhisComp,
-    shaders::kSpecialComp,   shaders::kTextureFrag,
+    shaders::kAtomicsComp,      shaders::kSharedTypesComp,   shaders::kControlComp,       shaders::kFunctionsComp,
+    shaders::kInterfaceFrag,    shaders::kInterfaceVert,     shaders::kMemoryComp,        shaders::kPhisComp,
+    shaders::kSpecialComp,      shaders::kTextureFrag,       shaders::kDistancesFrag,     shaders::kEmptyComp,
+    shaders::kImageAtomicsFrag, shaders::kInterpolateAtFrag, shaders::kSomeDistancesVert,
 };
 
 TEST(SpirvFuzz, SamplesAreFine) {

@@ -165,9 +165,10 @@ void Lowering::declare_interface(const SpirvInst& inst, bool output) {
   }
 }
 
-// Distances to clip or cull planes. Where the capability is missing, members of gl_PerVertex are only declared.
+// Distances to clip or cull planes. Where the capability is missing, members of an output gl_PerVertex are only
+// declared.
 void Lowering::declare_distances(bool cull, uint32_t of, Reg first, bool output) {
-  if (!m_.declares(cull ? spv::Capability::CullDistance : spv::Capability::ClipDistance)) return;
+  if (output && !m_.declares(cull ? spv::Capability::CullDistance : spv::Capability::ClipDistance)) return;
   const Type& array = type(of);
   if (array.kind != Kind::array || type(array.element).kind != Kind::real)
     return fail("clip and cull distances are arrays of floats");
@@ -230,6 +231,7 @@ void Lowering::declare_located(uint32_t id, Place& place, Reg& next) {
     return;
   }
   if (kind == Kind::boolean) return fail("booleans do not go from stage to stage");
+  if (which_ == VK_SHADER_STAGE_COMPUTE_BIT) return fail("compute shaders have no Locations");
   if (place.component + whole.components > 4) return fail("its components leave its Location");
   for (uint32_t i = 0; i < whole.components; ++i) {
     InterfaceComponent entry{place.location, place.component + i, next++, kind != Kind::real, place.interpolation};

@@ -298,6 +298,31 @@ TEST(SpirvRefuse, DeepTypes) {
   EXPECT_NE(outcome(words).find("nested too deeply"), std::string::npos);
 }
 
+TEST(SpirvRefuse, LocationsInCompute) {
+  EXPECT_REFUSED("compute shaders have no Locations", {
+    a.interface = {25};
+    a.add(a.annotations, Op::OpDecorate, {25, static_cast<uint32_t>(spv::Decoration::Location), 0});
+    a.add(a.globals, Op::OpTypePointer, {21, static_cast<uint32_t>(spv::StorageClass::Input), kUint});
+    a.add(a.globals, Op::OpVariable, {21, 25, static_cast<uint32_t>(spv::StorageClass::Input)});
+    a.add(a.body, Op::OpLoad, {kUint, 26, 25});
+    a.add(a.body, Op::OpIAdd, {kUint, 27, 26, 26});
+  });
+}
+
+TEST(SpirvRefuse, DistancesAsInputs) {
+  EXPECT_REFUSED("distances that are not supported here", {
+    a.interface = {25};
+    a.add(a.annotations, Op::OpDecorate,
+          {25, static_cast<uint32_t>(spv::Decoration::BuiltIn), static_cast<uint32_t>(spv::BuiltIn::ClipDistance)});
+    a.add(a.globals, Op::OpTypeArray, {20, kFloat, kOne});
+    a.add(a.globals, Op::OpTypePointer, {21, static_cast<uint32_t>(spv::StorageClass::Input), 20});
+    a.add(a.globals, Op::OpVariable, {21, 25, static_cast<uint32_t>(spv::StorageClass::Input)});
+    a.add(a.body, Op::OpLoad, {20, 26, 25});
+    a.add(a.body, Op::OpCompositeExtract, {kFloat, 27, 26, 0});
+    a.add(a.body, Op::OpFAdd, {kFloat, 28, 27, 27});
+  });
+}
+
 // 2^64 - 2^33 + 1 structures without members: nobody counts them.
 TEST(SpirvRefuse, ManyTimesNothing) {
   for (const spv::StorageClass from : {spv::StorageClass::Workgroup, spv::StorageClass::Input}) {
