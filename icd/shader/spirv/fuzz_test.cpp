@@ -23,6 +23,7 @@
 #include "shaders/some_distances.vert.h"
 #include "shaders/special.comp.h"
 #include "shaders/texture.frag.h"
+#include "shaders/two_coords.frag.h"
 
 namespace lapilli {
 namespace {
@@ -31,7 +32,7 @@ const std::span<const uint32_t> kSamples[] = {
     shaders::kAtomicsComp,      shaders::kSharedTypesComp,   shaders::kControlComp,       shaders::kFunctionsComp,
     shaders::kInterfaceFrag,    shaders::kInterfaceVert,     shaders::kMemoryComp,        shaders::kPhisComp,
     shaders::kSpecialComp,      shaders::kTextureFrag,       shaders::kDistancesFrag,     shaders::kEmptyComp,
-    shaders::kImageAtomicsFrag, shaders::kInterpolateAtFrag, shaders::kSomeDistancesVert,
+    shaders::kImageAtomicsFrag, shaders::kInterpolateAtFrag, shaders::kSomeDistancesVert, shaders::kTwoCoordsFrag,
 };
 
 TEST(SpirvFuzz, SamplesAreFine) {

@@ -194,6 +194,11 @@ void Lowering::declare_built_in(const SpirvInst& inst, uint32_t built_in, uint32
   if (type(of).components != row->components)
     return fail("built-in " + spirv_enum_name(SpirvEnum::BuiltIn, built_in) + " has the wrong type");
   if (!output && declare_sample_input(which, first, row->components)) return;
+  const auto earlier = std::ranges::find(out_.built_in_inputs, which, &InterfaceBuiltIn::built_in);
+  if (!output && earlier != out_.built_in_inputs.end()) {  // another variable has it, too
+    for (uint32_t i = 0; i < row->components; ++i) code_.emit_to(Opcode::mov, first + i, earlier->regs[i]);
+    return;
+  }
   InterfaceBuiltIn entry;
   entry.built_in = which;
   entry.word = inst.word;
