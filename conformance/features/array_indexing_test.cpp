@@ -15,8 +15,9 @@
 namespace lapilli::conformance {
 namespace {
 
-constexpr uint32_t kInvocations = 64, kResults = 8, kDeclared = 3;  // as in array_indexing_body.glsl
-constexpr VkDeviceSize kStart = 256;                                // of the data in each buffer
+constexpr uint32_t kResults = 8, kDeclared = 3;  // as in array_indexing_body.glsl
+constexpr uint32_t kInvocations = 192;           // whole workgroups and whole triangles
+constexpr VkDeviceSize kStart = 256;             // of the data in each buffer
 constexpr uint32_t kUntouched = 0xA5A5A5A5;
 
 // What has the number k in the arrays of the set.
@@ -146,7 +147,6 @@ void draw(const Set& set, VkShaderStageFlagBits stage) {
                                  : std::span<const uint32_t>(shaders::kPositionColorVert);
   state.fragment_shader = vertices ? std::span<const uint32_t>(shaders::kFlatColorFrag)
                                    : std::span<const uint32_t>(shaders::kArrayIndexingFrag);
-  state.topology = vertices ? VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;  // uses all
   state.rasterizer_discard = vertices;
   state.layout = layout.get();
   state.render_pass = canvas.render_pass();

@@ -1,6 +1,5 @@
 // Garbage in: every truncation of real modules, and thousands of random changes to them, end in a module or an error.
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -65,9 +64,8 @@ TEST(SpirvFuzz, CorpusIsRefusedOrLowered) {
   size_t modules = 0;
   for (const auto& file : std::filesystem::directory_iterator(LAPILLI_FUZZ_CORPUS)) {
     std::ifstream in(file.path(), std::ios::binary);
-    const std::string bytes((std::istreambuf_iterator<char>(in)), {});
-    std::vector<uint32_t> words(bytes.size() / sizeof(uint32_t));
-    std::memcpy(words.data(), bytes.data(), words.size() * sizeof(uint32_t));
+    std::vector<uint32_t> words(file.file_size() / sizeof(uint32_t));
+    in.read(reinterpret_cast<char*>(words.data()), static_cast<std::streamsize>(words.size() * sizeof(uint32_t)));
     const std::string text = try_module(words);
     EXPECT_TRUE(text.empty() || is_refusal(text)) << file.path() << ": " << text;
     ++modules;
