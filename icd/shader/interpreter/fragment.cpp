@@ -104,12 +104,12 @@ struct op_frag_linear_at {
         float& lambda = d[e * kLanes + lane];
         if (const LaneTriangles* const by_lane = batch.lane_triangles) {
           const uint32_t t = by_lane->by_lane ? lane : by_lane->slot[lane];
-          const double x = lane % 16 / 4 * 2 + lane % 2, y = lane / 16 * 2 + lane / 2 % 2;  // in the block
+          const double x = kLaneX[lane % 16], y = lane / 16 * 2 + kLaneY[lane % 16];  // in the block
           const double a = by_lane->edge_a[e][t], b = by_lane->edge_b[e][t];
           lambda = at(a, b, x * a + (y * b + by_lane->edge_c[e][t]), dx, dy, by_lane->inverse_area2[t]);
         } else {
           const TriangleSetup& t = *batch.triangle[lane / 4];
-          const double x = batch.x[lane / 4] + lane % 2, y = batch.y[lane / 4] + lane / 2 % 2;
+          const double x = batch.x[lane / 4] + kLaneX[lane % 4], y = batch.y[lane / 4] + kLaneY[lane % 4];
           const double a = t.edge_a[e + 1], b = t.edge_b[e + 1];
           lambda = at(a, b, x * a + (y * b + t.edge_c[e + 1]), dx, dy, t.inverse_area2);
         }
