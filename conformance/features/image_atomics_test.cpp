@@ -122,22 +122,17 @@ TEST(ImageAtomics, FragmentsCount) {
   const samples::Image counts = storage_image(subject(), {kSize, 1}, VK_FORMAT_R32_UINT, Bytes(kSize * 4));
   const std::array<DescriptorSlot, 1> slots = {image_slot(0, counts)};
   const Descriptors descriptors(subject(), slots);
-  const VkDescriptorSetLayout set_layout = descriptors.layout();
-  const samples::PipelineLayout layout = create_layout(subject(), {&set_layout, 1});
   const Canvas canvas(subject(), {.width = kSize, .height = kSize});
   PipelineState state;
   state.vertex_shader = shaders::kPositionColorVert;
   state.fragment_shader = shaders::kImageAtomicsFrag;
-  state.layout = layout.get();
-  state.render_pass = canvas.render_pass();
-  const samples::Pipeline pipeline = create_pipeline(subject(), state);
   // Two triangles with a common edge, three times: every pixel three times.
   std::vector<std::array<float, 8>> vertices;
   for (int n = 0; n < 3; ++n) {
     const float corners[6][2] = {{-1, -1}, {1, -1}, {-1, 1}, {-1, 1}, {1, -1}, {1, 1}};
     for (const auto& [x, y] : corners) vertices.push_back({x, y, 0, 1, 0.5f, 0, 0, 1});
   }
-  draw_vertices(canvas, pipeline, std::as_bytes(std::span(vertices)), layout.get(), descriptors.get());
+  draw_with(canvas, state, descriptors, std::as_bytes(std::span(vertices)));
   EXPECT_EQ(from_bytes<uint32_t>(download(subject(), counts, 4)), std::vector<uint32_t>(kSize, 3 * kSize));
 }
 

@@ -95,21 +95,16 @@ TEST(StorageImage, FragmentsWrite) {
   const samples::Image image = storage_image(subject(), {kSize, kSize}, VK_FORMAT_R32G32B32A32_UINT, empty);
   const std::array<DescriptorSlot, 1> slots = {image_slot(0, image)};
   const Descriptors descriptors(subject(), slots);
-  const VkDescriptorSetLayout set_layout = descriptors.layout();
-  const samples::PipelineLayout layout = create_layout(subject(), {&set_layout, 1});
   const Canvas canvas(subject(), {.width = kSize, .height = kSize});
   PipelineState state;
   state.vertex_shader = shaders::kPositionColorVert;
   state.fragment_shader = shaders::kStorageImageFrag;
-  state.layout = layout.get();
-  state.render_pass = canvas.render_pass();
-  const samples::Pipeline pipeline = create_pipeline(subject(), state);
   // The lower left half of the canvas, twice, and a corner of it once more: the last one wins.
   const std::vector<std::array<float, 8>> vertices = {
       {-1, -1, 0, 1, 0.25f, 0, 0, 1}, {-1, 1, 0, 1, 0.25f, 0, 0, 1}, {1, 1, 0, 1, 0.25f, 0, 0, 1},
       {-1, -1, 0, 1, 0.5f, 0, 0, 1},  {-1, 1, 0, 1, 0.5f, 0, 0, 1},  {1, 1, 0, 1, 0.5f, 0, 0, 1},
       {-1, 0, 0, 1, 0.75f, 0, 0, 1},  {-1, 1, 0, 1, 0.75f, 0, 0, 1}, {0, 1, 0, 1, 0.75f, 0, 0, 1}};
-  draw_vertices(canvas, pipeline, std::as_bytes(std::span(vertices)), layout.get(), descriptors.get());
+  draw_with(canvas, state, descriptors, std::as_bytes(std::span(vertices)));
   const auto drawn = canvas.read_color<uint32_t>();
   const auto texels = from_bytes<std::array<uint32_t, 4>>(download(subject(), image, 16));
   uint32_t covered = 0;

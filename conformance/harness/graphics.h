@@ -55,5 +55,16 @@ samples::PipelineLayout create_layout(const Context& context, std::span<const Vk
 // Draws all vertices, of the default layout (see PipelineState), on a cleared canvas and waits. `set`: bound as set 0.
 void draw_vertices(const Canvas& canvas, const samples::Pipeline& pipeline, std::span<const std::byte> vertices,
                    VkPipelineLayout layout = VK_NULL_HANDLE, VkDescriptorSet set = VK_NULL_HANDLE);
+// The same with a pipeline of its own: `state` less its layout, which is the descriptors', and its render pass.
+template <class Descriptors>
+void draw_with(const Canvas& canvas, PipelineState state, const Descriptors& descriptors,
+               std::span<const std::byte> vertices) {
+  const VkDescriptorSetLayout set_layout = descriptors.layout();
+  const samples::PipelineLayout layout = create_layout(canvas.context(), {&set_layout, 1});
+  state.layout = layout.get();
+  state.render_pass = canvas.render_pass();
+  const samples::Pipeline pipeline = create_pipeline(canvas.context(), state);
+  draw_vertices(canvas, pipeline, vertices, layout.get(), descriptors.get());
+}
 
 }  // namespace lapilli::conformance
