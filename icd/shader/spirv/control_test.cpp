@@ -127,11 +127,11 @@ TEST(SpirvControl, PhisMatchScalarCode) {
   }
 }
 
-TEST(SpirvControl, PhiBehindALoop) {
+TEST(SpirvControl, PhisOfWhatALoopHandsOut) {
   ComputeRun run;
   const uint32_t* const results = run.buffer<uint32_t>(0, kInvocations);
   run.run(shaders::kExitsComp, kInvocations / kBatchLanes);
-  for (uint32_t n = 0; n < kInvocations; ++n) EXPECT_EQ(results[n], (n & 7) * (n & 7)) << n;
+  for (uint32_t n = 0; n < kInvocations; ++n) EXPECT_EQ(results[n], 2 * (n & 7) * (n & 7)) << n;
 }
 
 }  // namespace

@@ -177,11 +177,9 @@ void Lowering::lower_instruction(const SpirvInst& inst) {
     code_.instructions[i].spirv_word = inst.word;
     code_.instructions[i].line = line_;
   }
-  const std::vector<uint32_t>& escaping = frame_->function->escaping;
-  if (failed() || inst.op == spv::Op::OpPhi || escaping.empty()) return;
+  if (failed() || inst.op == spv::Op::OpPhi || frame_->function->escaping.empty()) return;
   const char* signature = find_spirv_op(static_cast<uint32_t>(inst.op))->signature;
-  if (signature[0] == 't' && signature[1] == 'r' && std::binary_search(escaping.begin(), escaping.end(), inst[2]))
-    export_from_loop(inst[2]);
+  if (signature[0] == 't' && signature[1] == 'r' && escapes(inst[2])) export_from_loop(inst[2]);
 }
 
 void Lowering::lower_body_instruction(const SpirvInst& inst) {

@@ -117,9 +117,11 @@ bool Lowering::begin_block(uint32_t index) {
   if (!falls_through && !state.reached) return false;
   if (!function.is_header(block)) {
     if (!falls_through) enter(state);
-    // The other ways here turned out not to be taken: no variables are needed.
+    // The other ways here turned out not to be taken: no variables are needed, but for what a loop hands out.
     if (state.edges == 1) {
-      for (const auto& [id, values] : state.phis) bind(id, values);
+      for (const auto& [id, values] : state.phis) {
+        if (!escapes(id)) bind(id, values);
+      }
     }
     return true;
   }
@@ -359,6 +361,10 @@ void Lowering::copy_to_phis(uint32_t target, Reg condition, bool negate) {
           negate ? emit(Opcode::select, condition, variable, value) : emit(Opcode::select, condition, value, variable);
   }
   for (const auto& [variable, value] : moves) assign(variable, value);
+}
+
+bool Lowering::escapes(uint32_t id) const {
+  return std::binary_search(frame_->function->escaping.begin(), frame_->function->escaping.end(), id);
 }
 
 // A value that later code outside the loop reads: lanes that leave the loop keep what they had.

@@ -203,6 +203,7 @@ class Lowering {
   uint32_t mark_pending(BlockState& state);  // its mask
   void enter(BlockState& state);
   void place_skip_label();
+  bool escapes(uint32_t id) const;  // from the loop that makes it
   void export_from_loop(uint32_t id);
   void join_known(BlockState& state, Reg first_inner, bool last);
   Reg first_inner_register(uint32_t target_position) const;

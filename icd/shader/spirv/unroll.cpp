@@ -20,7 +20,6 @@ constexpr uint32_t kDontUnroll = 2;                // LoopControl
 // Nothing but the counter's variable goes from round to round or out of the loop by id.
 bool Lowering::may_unroll(uint32_t loop) const {
   const SpirvFunction& function = *frame_->function;
-  const std::vector<uint32_t>& escaping = function.escaping;
   const SpirvBlock& header = function.blocks[function.order[function.loops[loop].header]];
   uint32_t words = 0;
   for (uint32_t position = function.loops[loop].header; position < function.loops[loop].end; ++position) {
@@ -32,8 +31,7 @@ bool Lowering::may_unroll(uint32_t loop) const {
       if (inst.op == spv::Op::OpPhi && &block == &header) return false;
       if (inst.op == spv::Op::OpLoopMerge && (inst[3] & kDontUnroll) != 0) return false;
       const char* signature = find_spirv_op(static_cast<uint32_t>(inst.op))->signature;
-      if (signature[0] == 't' && signature[1] == 'r' && std::binary_search(escaping.begin(), escaping.end(), inst[2]))
-        return false;
+      if (signature[0] == 't' && signature[1] == 'r' && escapes(inst[2])) return false;
     }
   }
   return true;
