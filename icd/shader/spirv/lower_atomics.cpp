@@ -55,7 +55,9 @@ bool Lowering::lower_atomics(const SpirvInst& inst) {
   if (!word.is_integer() && !(word.kind == Kind::real && moves)) return fail("is not supported for this type"), true;
   if (has_result && inst[1] != at->type) return fail("its type is not what the pointer points to"), true;
   for (const uint32_t operand : {row->value, row->comparator}) {
-    if (operand != 0 && m_.ids[inst[operand]].type != at->type)
+    if (operand == 0) continue;
+    const Type& given = type_of(inst[operand]);  // glslang gives a uint an int where it reads HLSL
+    if (given.kind != word.kind && !(given.is_integer() && word.is_integer()))
       return fail("an operand has another type than what the pointer points to"), true;
   }
   const auto [resource, descriptor] = resource_of(*at);

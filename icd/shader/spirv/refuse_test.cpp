@@ -262,6 +262,23 @@ TEST(SpirvRefuse, TexelPointers) {
   });
 }
 
+TEST(SpirvRefuse, OperandsOfAtomics) {
+  enum : uint32_t { kInt = 20, kSigned, kReal, kPointer, kVariable };
+  const auto added = [](uint32_t value) {
+    return outcome_of([&](Assembler& a) {
+      a.add(a.globals, Op::OpTypeInt, {kInt, 32, 1});
+      a.add(a.globals, Op::OpConstant, {kInt, kSigned, 5});
+      a.add(a.globals, Op::OpConstant, {kFloat, kReal, 5});
+      a.add(a.globals, Op::OpTypePointer, {kPointer, static_cast<uint32_t>(spv::StorageClass::Workgroup), kUint});
+      a.add(a.globals, Op::OpVariable, {kPointer, kVariable, static_cast<uint32_t>(spv::StorageClass::Workgroup)});
+      a.add(a.body, Op::OpAtomicIAdd, {kUint, 30, kVariable, kOne, kOne, value});
+    });
+  };
+  EXPECT_EQ(added(kOne), "");
+  EXPECT_EQ(added(kSigned), "");
+  EXPECT_NE(added(kReal).find("another type"), std::string::npos);
+}
+
 TEST(SpirvRefuse, UndefinedPointersThatAreUsed) {
   const auto undefined = [](bool used) {
     return outcome_of([&](Assembler& a) {
