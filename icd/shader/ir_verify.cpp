@@ -15,6 +15,7 @@ constexpr uint32_t kNoLoop = 0xFFFFFFFF;
 struct Loop {
   uint32_t header = 0;
   uint32_t last = 0;  // the instruction `loop`
+  uint32_t parent = 0;
 };
 
 // Columns of ops.def: bit 0 to 2 for a, b, c.
@@ -113,20 +114,22 @@ class Verifier {
       const Instruction& enter = code_.instructions[header];
       if (enter.op != Opcode::enter || enter.imm != instruction.imm)
         return fail_here("the header does not enter its mask");
-      loops_.push_back({header, at_});
+      loops_.push_back({header, at_, kNoLoop});
     }
-    // In order of their ends inner loops come first.
+    // In order of their ends inner loops come first. `done`: those that have no parent yet, one behind the other.
+    std::vector<uint32_t> done;
     for (uint32_t loop = 0; loop < loops_.size(); ++loop) {
-      for (uint32_t i = loops_[loop].header; i <= loops_[loop].last; ++i) {
-        if (innermost_[i] == kNoLoop) innermost_[i] = loop;
+      const Loop& outer = loops_[loop];
+      uint32_t end = outer.last + 1;  // what lies behind has its loop
+      for (; !done.empty() && loops_[done.back()].header >= outer.header; done.pop_back()) {
+        Loop& inner = loops_[done.back()];
+        inner.parent = loop;
+        std::fill(innermost_.begin() + inner.last + 1, innermost_.begin() + end, loop);
+        end = inner.header;
       }
-    }
-    for (size_t inner = 0; inner < loops_.size(); ++inner) {
-      for (size_t outer = inner + 1; outer < loops_.size(); ++outer) {
-        const Loop& a = loops_[inner];
-        const Loop& b = loops_[outer];
-        if (b.header <= a.last && b.header > a.header) return fail("loops overlap");
-      }
+      if (!done.empty() && loops_[done.back()].last >= outer.header) return fail("loops overlap");
+      std::fill(innermost_.begin() + outer.header, innermost_.begin() + end, loop);
+      done.push_back(loop);
     }
     return true;
   }
@@ -275,13 +278,13 @@ class Verifier {
     if (label >= code_.labels.size() || code_.labels[label] == kNoLabelPosition) return fail_here("no such label");
     const uint32_t target = code_.labels[label];
     if (target <= at_) return fail_here("the label is not further down");
-    for (const Loop& loop : loops_) {
-      const bool from_inside = at_ >= loop.header && at_ <= loop.last;
-      const bool to_inside = target > loop.header && target <= loop.last;
-      if (to_inside && !from_inside) return fail_here("jumps into a loop");
-      // The header of a loop is entered with an empty mask only if no lane came: nobody can be waiting at its end.
-      if (from_inside && target > loop.last && at_ != loop.header) return fail_here("jumps out of a loop");
-    }
+    uint32_t to = innermost_[target];
+    while (to != kNoLoop && loops_[to].header == target) to = loops_[to].parent;
+    if (to != kNoLoop && at_ < loops_[to].header) return fail_here("jumps into a loop");
+    // The header of a loop is entered with an empty mask only if no lane came: nobody can be waiting at its end.
+    uint32_t from = innermost_[at_];
+    while (from != kNoLoop && loops_[from].header == at_) from = loops_[from].parent;
+    if (from != kNoLoop && target > loops_[from].last) return fail_here("jumps out of a loop");
     return true;
   }
 

@@ -58,7 +58,7 @@ class Allocator {
       if (is_fixed(reg) && choice_.in_memory[reg] != 0) physical_[reg] = free_.take(1);
     }
     sort_intervals();
-    for (uint32_t i = 0; i < code_.instructions.size(); ++i) {
+    for (uint32_t i = 0; i < code_.instructions.size() && free_.highest() <= kMaxRegisters; ++i) {
       // Pure ops read an element of their operands before they write that of the result: these may share a register.
       const bool shares = is_pure(code_.instructions[i]);
       if (shares) end_intervals(i);

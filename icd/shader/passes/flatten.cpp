@@ -1,6 +1,7 @@
 // Control flow that costs more than it spares: a branch to the next block, and short ifs, whose two sides are computed
 // in all lanes and chosen from.
 #include <algorithm>
+#include <numeric>
 
 #include "shader/passes/passes.h"
 
@@ -27,7 +28,7 @@ class Flattener {
     const bool found = out_.size() != size;
     moved[size] = static_cast<uint32_t>(out_.size());
     for (uint32_t& position : code_.labels) {
-      if (position != kNoLabelPosition) position = moved[position];
+      if (position != kNoLabelPosition) position = moved[place_of(position)];
     }
     code_.instructions = std::move(out_);
     return found;
@@ -48,6 +49,8 @@ class Flattener {
     mask_uses_.assign(code_.mask_count, 0);
     label_uses_.assign(code_.labels.size(), 0);
     labels_at_.assign(code_.instructions.size() + 1, 0);
+    skipped_to_.resize(code_.instructions.size() + 1);
+    std::iota(skipped_to_.begin(), skipped_to_.end(), 0u);
     for (uint32_t position : code_.labels) {
       if (position != kNoLabelPosition) ++labels_at_[position];
     }
@@ -63,7 +66,12 @@ class Flattener {
 
   bool is(uint32_t at, Opcode op) const { return at < code_.instructions.size() && code_.instructions[at].op == op; }
   bool is(uint32_t at, Opcode op, uint32_t mask) const { return is(at, op) && code_.instructions[at].imm == mask; }
-  uint32_t end_of(const Instruction& enter) const { return code_.labels[enter.imm2]; }
+  uint32_t end_of(const Instruction& enter) { return place_of(code_.labels[enter.imm2]); }
+  // Where those go on who jump to `position`.
+  uint32_t place_of(uint32_t position) {
+    while (skipped_to_[position] != position) position = skipped_to_[position] = skipped_to_[skipped_to_[position]];
+    return position;
+  }
 
   // A branch to what comes next, and to which nothing else leads. Who skipped the block before skips this one too.
   bool straight(uint32_t& at) {
@@ -80,16 +88,13 @@ class Flattener {
   void skip(uint32_t place, const Instruction& enter) {
     const uint32_t behind = end_of(enter);
     leave_label(enter.imm2);
-    for (uint32_t& position : code_.labels) {
-      if (position != place) continue;
-      position = behind;
-      ++labels_at_[behind];
-    }
+    labels_at_[behind] += labels_at_[place];
+    skipped_to_[place] = behind;
   }
 
   void leave_label(uint32_t label) {
     if (--label_uses_[label] != 0) return;
-    --labels_at_[code_.labels[label]];
+    --labels_at_[place_of(code_.labels[label])];
     code_.labels[label] = kNoLabelPosition;
   }
 
@@ -135,7 +140,7 @@ class Flattener {
   }
 
   // Whether the `enter` jumps to `place`, and nobody else does.
-  bool is_end_of(uint32_t enter, uint32_t place) const {
+  bool is_end_of(uint32_t enter, uint32_t place) {
     return end_of(code_.instructions[enter]) == place && labels_at_[place] == 1 &&
            label_uses_[code_.instructions[enter].imm2] == 1;
   }
@@ -202,7 +207,8 @@ class Flattener {
   Code& code_;
   std::vector<Instruction> out_;
   std::vector<uint32_t> mask_uses_, label_uses_;
-  std::vector<uint32_t> labels_at_;  // by instruction
+  std::vector<uint32_t> labels_at_;   // by instruction, as is
+  std::vector<uint32_t> skipped_to_;  // another one where who jumps here goes on; itself if there is none
 };
 
 }  // namespace

@@ -175,11 +175,11 @@ class Simplifier {
     size_t slot = hash_of(instruction) & mask;
     for (; table_[slot] != kNone; slot = (slot + 1) & mask) {
       const uint32_t other = table_[slot];
-      const bool entry = block_of_[other] == kEntryBlock && !from_memory;
-      if (block_of_[other] != block_ && !entry) continue;
-      if (from_memory && epoch_of_[other] != epoch_) continue;
       const Instruction& earlier = code_.instructions[other];
       if (!computes_the_same(earlier, instruction)) continue;
+      const bool entry = block_of_[other] == kEntryBlock && !from_memory;
+      // This one takes its place, so that what many blocks compute is in the table once.
+      if ((block_of_[other] != block_ && !entry) || (from_memory && epoch_of_[other] != epoch_)) break;
       for (uint32_t i = 0; i < instruction.results; ++i) values_[instruction.dst + i].same_as = earlier.dst + i;
       return true;
     }
