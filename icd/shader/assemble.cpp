@@ -16,6 +16,9 @@
 namespace lapilli {
 namespace {
 
+// Rounds of a loop, or batches, between two looks at the clock are the immediate of `end`: fewer in a long program.
+constexpr uint32_t kCostPerLook = 1 << 20;  // about 2 ms, see ops.def
+
 Error error(const char* what, uint64_t number) {
   return {VK_ERROR_UNKNOWN, std::string(what) + " (" + std::to_string(number) + ")"};
 }
@@ -40,6 +43,7 @@ class Assembler {
     }
     program_.ops.reserve(code_.instructions.size());
     for (uint32_t i = 0; i < code_.instructions.size(); ++i) program_.ops.push_back(make_op(i));
+    program_.ops.back().imm = std::clamp(kCostPerLook / (program_.lane_cost + 1), 1u, kLoopsPerClockRead);
     if (program_.lists.size() > kNoOperand)
       return error("the shader has too many operand lists", program_.lists.size());
     return {};

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <memory>
 #include <new>
 
@@ -16,16 +15,10 @@ constexpr uint64_t kChunksPerWorker = 256;
 struct Worker {
   Execution execution;
   bool prepared = false;
-  uint64_t groups_done = 0;
 };
 
-// Workgroups between two looks at the clock: a program without loops may be dispatched 2^48 times.
-constexpr uint64_t kGroupsPerClockRead = 256;
-
-bool expired(ExecutionLimits* limits, uint64_t groups_done) {
-  if (limits == nullptr) return false;
-  if (groups_done % kGroupsPerClockRead == 0) return limits->read_clock();
-  return limits->expired.load(std::memory_order_relaxed);
+bool expired(const ExecutionLimits* limits) {
+  return limits != nullptr && limits->expired.load(std::memory_order_relaxed);
 }
 
 void run_workgroup(Execution& execution, uint64_t number, const uint32_t groups[3]) {
@@ -57,7 +50,7 @@ bool dispatch(ThreadPool& pool, const Program& program, const ResourceTable& res
     if (!worker.prepared) return;
     const uint64_t first = index * chunk;
     const uint64_t end = std::min(first + chunk, total);
-    for (uint64_t group = first; group < end && !expired(limits, ++worker.groups_done); ++group) {
+    for (uint64_t group = first; group < end && !expired(limits); ++group) {
       run_workgroup(worker.execution, group, groups);
     }
   });

@@ -81,5 +81,35 @@ TEST(Dispatch, ManyWorkgroupsEndAtTheDeadline) {
   EXPECT_TRUE(limits.expired.load());
 }
 
+// A program without loops, of more than a millisecond a batch: the clock is read before each of them.
+TEST(Dispatch, LongProgramsEndInTime) {
+  constexpr uint32_t kLength = 400000;
+  Code code;
+  code.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+  code.workgroup_size[0] = kBatchLanes;
+  code.add_resource({});
+  const Reg address = code.emit(Opcode::shl, builtin(code, BuiltIn::workgroup_x), code.constant(2));
+  Reg value = builtin(code, BuiltIn::global_invocation_x);
+  for (uint32_t i = 0; i < kLength; ++i) value = code.emit(Opcode::fdiv, value, address);
+  code.emit_void(Opcode::store_buffer, address, code.emit(Opcode::ior, value, code.constant(1)));
+  code.emit_void(Opcode::end);
+  const Result<ProgramPtr> program = assemble(std::move(code));
+  ASSERT_TRUE(program.ok()) << program.error().message;
+  constexpr uint32_t kGroups = 200;
+  std::vector<uint32_t> words(kGroups);
+  Descriptor descriptor;
+  descriptor.data = reinterpret_cast<std::byte*>(words.data());
+  descriptor.size = descriptor.room = words.size() * 4;
+  ResourceTable resources;
+  resources.sets[0] = &descriptor;
+  ThreadPool pool(1);
+  ExecutionLimits limits;
+  limits.deadline = std::chrono::steady_clock::now() + std::chrono::microseconds(1);
+  const uint32_t groups[3] = {kGroups, 1, 1};
+  ASSERT_TRUE(dispatch(pool, **program, resources, groups, &limits));
+  EXPECT_TRUE(limits.expired);
+  EXPECT_EQ(words.back(), 0u);
+}
+
 }  // namespace
 }  // namespace lapilli

@@ -39,7 +39,7 @@ BufferRange buffer_at(const Frame& frame, uint32_t resource, uint32_t index) {
 }
 
 bool time_is_up(Frame* frame) {
-  frame->loop_budget = kLoopsPerClockRead;
+  frame->loop_budget = frame->last->imm;
   return frame->limits != nullptr && frame->limits->read_clock();
 }
 
@@ -107,6 +107,7 @@ struct Execution::State {
       spread(next.constant_lanes, each);
     }
     frame = frame_at(0);
+    batches_until_look = 0;
     program_id = next.id;
     limits_serial = 0;
     return true;
@@ -132,7 +133,13 @@ struct Execution::State {
     }
   }
 
-  bool expired() const { return frame->limits != nullptr && frame->limits->expired.load(std::memory_order_relaxed); }
+  // Before each batch: a program without loops may be long, and a draw or dispatch have 2^48 batches.
+  bool expired() {
+    if (frame->limits == nullptr) return false;
+    if (batches_until_look-- != 0) return frame->limits->expired.load(std::memory_order_relaxed);
+    batches_until_look = frame->last->imm - 1;
+    return frame->limits->read_clock();
+  }
 
   void run(uint64_t exec, uint64_t write) {
     if (write == 0 || expired()) return;
@@ -174,6 +181,7 @@ struct Execution::State {
   SpreadScalars* spread = nullptr;
   uint64_t limits_serial = 0;  // of the pass or dispatch that the resources were bound in; 0: not known
   bool once_is_due = false;
+  uint32_t batches_until_look = 0;
   float blend_constants[4] = {};  // that the once section has seen
 };
 
@@ -219,12 +227,11 @@ void Execution::run_fragments(const FragmentBatch& batch, uint64_t lanes) {
 
 void Execution::run_workgroup(const uint32_t workgroup[3], const uint32_t num_workgroups[3]) {
   State& state = *state_;
-  if (state.expired()) return;
   if (state.once_is_due) state.run_once();
   const Code& code = state.program->source;
   std::memset(state.frame->shared, 0, code.shared_bytes);
   const uint32_t invocations = code.invocations();
-  for (uint32_t i = 0; i * kBatchLanes < invocations; ++i) {
+  for (uint32_t i = 0; i * kBatchLanes < invocations && !state.expired(); ++i) {
     const uint32_t place = state.program->frames == 1 ? 0 : i;
     ComputeBatch& batch = state.batches[place];
     std::copy_n(workgroup, 3, batch.workgroup);
