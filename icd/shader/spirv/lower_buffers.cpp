@@ -28,6 +28,8 @@ void Lowering::collect_offsets(const Pointer& from, std::vector<uint64_t>& offse
   }
   if (whole.kind == Kind::runtime_array) return fail("is no value of a known size");
   if (whole.components == 0 && whole.has_value()) return;
+  if (whole.kind == Kind::structure) steps_ += whole.count;  // members may be nothing
+  if (!within_limits()) return;
   for (uint32_t i = 0; i < whole.count && !failed(); ++i) {
     Pointer part = from;
     switch (whole.kind) {
@@ -70,16 +72,25 @@ std::pair<uint32_t, Reg> Lowering::resolve_descriptor(const BindingSlot* slot, u
                                                       bool uniform) {
   if (slot == nullptr) {
     fail("a descriptor's binding is not in the pipeline layout");
-    return {code_.add_resource({}), kNoReg};
+    return {add_resource({}), kNoReg};
   }
   ResourceRef ref{slot->set, slot->first, slot->count, slot->dynamic_offset, uniform};
   if (dynamic != kNoReg)
-    return {code_.add_resource(ref), offset == 0 ? dynamic : emit(Opcode::iadd, dynamic, constant(offset))};
+    return {add_resource(ref), offset == 0 ? dynamic : emit(Opcode::iadd, dynamic, constant(offset))};
   if (offset >= slot->count) fail("the binding has no descriptor " + std::to_string(offset));
   ref.first += offset;
   ref.count = 1;
   if (ref.dynamic_offset >= 0) ref.dynamic_offset += static_cast<int32_t>(offset);
-  return {code_.add_resource(ref), kNoReg};
+  return {add_resource(ref), kNoReg};
+}
+
+// Code::add_resource compares with each one that is there; here there may be thousands.
+uint32_t Lowering::add_resource(const ResourceRef& ref) {
+  const std::array<uint32_t, 5> key = {ref.set, ref.first, ref.count, static_cast<uint32_t>(ref.dynamic_offset),
+                                       ref.uniform};
+  const auto [at, added] = resources_.try_emplace(key, static_cast<uint32_t>(code_.resources.size()));
+  if (added) code_.resources.push_back(ref);
+  return at->second;
 }
 
 // The memory behind a pointer: a descriptor, or a variable of the workgroup, which gets its place when it is first
@@ -95,7 +106,7 @@ std::pair<uint32_t, Reg> Lowering::resource_of(const Pointer& pointer) {
     code_.shared_bytes += bytes;
     if (code_.shared_bytes > kMaxSharedBytes) fail("the shared memory is larger than maxComputeSharedMemorySize");
   }
-  return {code_.add_resource({kSharedMemory, variable.first, bytes}), kNoReg};
+  return {add_resource({kSharedMemory, variable.first, bytes}), kNoReg};
 }
 
 std::vector<Reg> Lowering::load_memory(const Pointer& from) {

@@ -7,6 +7,12 @@
 #include "shader/spirv/lowering.h"
 
 namespace lapilli::spirv {
+namespace {
+// SPIR-V that is only looked at, in words for each instruction that counts for kMaxInstructions.
+constexpr uint32_t kWordsPerStep = 16, kPhiWordsPerStep = 512;
+constexpr int kMostLinks = 64;
+constexpr size_t kMaxKnownWaiting = 1 << 20;  // in blocks that are not entered yet
+}  // namespace
 
 void Lowering::lower_call(const SpirvInst& inst) {
   const SpirvFunction* callee = m_.function(inst[3]);
@@ -103,6 +109,7 @@ void Lowering::enter(BlockState& state) {
   code_.emit_void(Opcode::enter, kNoReg, kNoReg, kNoReg, state.mask, skip_label_);
   if (state.pending) --pending_;
   state.pending = false;
+  known_waiting_ -= state.known.size();
   known_ = std::move(state.known);
   uniform_ = pending_ == 0 && open_loops_ == 0;
 }
@@ -319,6 +326,7 @@ void Lowering::copy_to_phis(uint32_t target, Reg condition, bool negate) {
   BlockState& state = frame_->blocks[target];
   const Reg first_inner = first_inner_register(to.position);
   std::vector<std::pair<Reg, Reg>> moves;  // variable, value
+  uint32_t parent = 3;                     // word of the phi
   for (uint32_t word = to.first; word < to.end; word += m_.at(word).count) {
     const SpirvInst inst = m_.at(word);
     if (inst.op == spv::Op::OpLine || inst.op == spv::Op::OpNoLine) continue;
@@ -334,9 +342,13 @@ void Lowering::copy_to_phis(uint32_t target, Reg condition, bool negate) {
     }
     const std::span<const Reg> variables = data(inst[2], count);
     const uint32_t from = function.blocks[frame_->block].label;
-    for (uint32_t i = 3; i + 1 < inst.count; i += 2) {
-      if (inst[i + 1] != from) continue;
-      const std::span<const Reg> values = data(inst[i], count);
+    // Most compilers name the blocks in the same order in each phi.
+    if (parent + 1 >= inst.count || inst[parent + 1] != from) parent = 3;
+    const uint32_t start = parent;
+    while (parent + 1 < inst.count && inst[parent + 1] != from) parent += 2;
+    steps_ += (parent - start) / kPhiWordsPerStep;
+    if (parent + 1 < inst.count) {
+      const std::span<const Reg> values = data(inst[parent], count);
       // What was made in a loop that is left here goes on changing after lanes have left.
       const bool changes = std::any_of(values.begin(), values.end(), [&](Reg value) {
         return value >= first_inner && code_.registers[value].kind != RegKind::constant;
@@ -345,7 +357,6 @@ void Lowering::copy_to_phis(uint32_t target, Reg condition, bool negate) {
       for (size_t c = 0; c < count; ++c) {
         if (variables[c] != values[c]) moves.emplace_back(variables[c], values[c]);
       }
-      break;
     }
   }
   ++state.edges;
@@ -407,23 +418,26 @@ void Lowering::join_known(BlockState& state, Reg first_inner, bool last) {
   const bool first = !state.reached;
   state.reached = true;
   if (first) {
-    if (last) {
+    if (known_waiting_ + known_.size() > kMaxKnownWaiting) {
+      state.known.clear();
+    } else if (last) {
       state.known = std::move(known_);
     } else {
       state.known = known_;
     }
     if (first_inner != kNoReg) std::erase_if(state.known, stays_inside);
+    known_waiting_ += state.known.size();
     return;
   }
   auto other = known_.begin();
-  std::erase_if(state.known, [&](const auto& entry) {
+  known_waiting_ -= std::erase_if(state.known, [&](const auto& entry) {
     while (other != known_.end() && other->first < entry.first) ++other;
     return other == known_.end() || *other != entry || stays_inside(entry);
   });
 }
 
 uint32_t Lowering::root_of_pointer(uint32_t id) const {
-  while (true) {
+  for (int link = 0; link < kMostLinks; ++link) {
     const SpirvInst inst = m_.definition(id);
     if (inst.op != spv::Op::OpAccessChain && inst.op != spv::Op::OpInBoundsAccessChain &&
         inst.op != spv::Op::OpCopyObject)
@@ -431,17 +445,21 @@ uint32_t Lowering::root_of_pointer(uint32_t id) const {
     if (m_.ids[inst[3]].word >= inst.word) return id;  // not a valid chain
     id = inst[3];
   }
+  return 0;
 }
 
 void Lowering::forget_stored_in_loop(uint32_t loop) {
   const SpirvFunction& function = *frame_->function;
   const auto forget_root = [&](uint32_t id) {
-    const Value* root = find_value(root_of_pointer(id));
+    const uint32_t root_id = root_of_pointer(id);
+    if (root_id == 0) return known_.clear();
+    const Value* root = find_value(root_id);
     if (root != nullptr && root->shape == Value::Shape::pointer && root->pointer.variable != nullptr)
       forget(root->pointer.variable->first, root->pointer.variable->count);
   };
   for (uint32_t position = function.loops[loop].header; position < function.loops[loop].end; ++position) {
     const SpirvBlock& block = function.blocks[function.order[position]];
+    steps_ += (block.end - block.first) / kWordsPerStep;
     for (uint32_t word = block.first; word < block.end && !known_.empty(); word += m_.at(word).count) {
       const SpirvInst inst = m_.at(word);
       if (inst.op == spv::Op::OpStore || inst.op == spv::Op::OpCopyMemory) forget_root(inst[1]);

@@ -45,6 +45,8 @@ constexpr BuiltInRow kBuiltIns[] = {
 }  // namespace
 
 void Lowering::declare_globals(const SpirvEntryPoint& entry) {
+  std::vector<uint32_t> interface = entry.interface;
+  std::ranges::sort(interface);
   for (const uint32_t word : m_.globals) {
     const SpirvInst inst = m_.at(word);
     if (inst.op != spv::Op::OpVariable) continue;
@@ -54,7 +56,7 @@ void Lowering::declare_globals(const SpirvEntryPoint& entry) {
     switch (static_cast<spv::StorageClass>(inst[3])) {
       case spv::StorageClass::Input:
       case spv::StorageClass::Output:
-        if (std::find(entry.interface.begin(), entry.interface.end(), inst[2]) != entry.interface.end())
+        if (std::ranges::binary_search(interface, inst[2]))
           declare_interface(inst, static_cast<spv::StorageClass>(inst[3]) == spv::StorageClass::Output);
         break;
       case spv::StorageClass::Private:

@@ -106,6 +106,8 @@ void Lowering::collect_scalar_kinds(uint32_t id, std::vector<Kind>& kinds) {
   if (whole.is_scalar()) {
     kinds.push_back(whole.kind);
   } else if (whole.kind == Kind::structure) {
+    steps_ += whole.count;  // members may be nothing
+    if (!within_limits()) return;
     for (const uint32_t member : whole.members) collect_scalar_kinds(member, kinds);
   } else {
     for (uint32_t i = 0; i < whole.count; ++i) collect_scalar_kinds(whole.element, kinds);

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <deque>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -208,7 +209,7 @@ class Lowering {
   void join_known(BlockState& state, Reg first_inner, bool last);
   Reg first_inner_register(uint32_t target_position) const;
   void forget_stored_in_loop(uint32_t loop);
-  uint32_t root_of_pointer(uint32_t id) const;
+  uint32_t root_of_pointer(uint32_t id) const;  // 0: too many access chains lead to it
 
   // --- unroll.cpp ---
   bool may_unroll(uint32_t loop) const;
@@ -236,6 +237,7 @@ class Lowering {
   void lower_load(const SpirvInst& inst);
   void lower_array_length(const SpirvInst& inst);
   std::pair<uint32_t, Reg> resource_of(const Pointer& pointer);
+  uint32_t add_resource(const ResourceRef& ref);
   uint32_t descriptors_in(uint32_t type);
   Reg canonical(Reg reg);  // before it is stored or seen as an integer: the same NaN on all machines
 
@@ -311,6 +313,8 @@ class Lowering {
   Reg* chunk_next_ = nullptr;
   size_t chunk_left_ = 0, pool_size_ = 0;
   Known known_;
+  size_t known_waiting_ = 0;                               // entries of BlockState::known
+  std::map<std::array<uint32_t, 5>, uint32_t> resources_;  // what they are, index in Code::resources
   Frame* frame_ = nullptr;
   uint32_t skip_label_ = kNoReg;
   uint32_t pending_ = 0, open_loops_ = 0;

@@ -15,10 +15,8 @@ std::optional<uint32_t> SpirvModule::decoration(uint32_t id, uint32_t member, sp
 }
 
 const SpirvFunction* SpirvModule::function(uint32_t id) const {
-  for (const SpirvFunction& function : functions) {
-    if (function.id == id) return &function;
-  }
-  return nullptr;
+  const auto at = std::ranges::lower_bound(functions, ids[id].word, {}, &SpirvFunction::word);
+  return at != functions.end() && at->id == id ? &*at : nullptr;
 }
 
 std::string_view spirv_string(const uint32_t* words, uint32_t max_words) {

@@ -1,74 +1,10 @@
 // What is invalid or not supported is refused, and the message names it.
-#include <functional>
-
-#include "shader/spirv/module.h"
-#include "shader/spirv/test/run_shader.h"
+#include "shader/spirv/test/assembler.h"
 
 namespace lapilli {
 namespace {
 
 using spv::Op;
-
-// A compute shader that does nothing, in pieces that tests change. Ids up to kFree are taken.
-enum Ids : uint32_t { kVoid = 1, kFunctionType, kMain, kEntryLabel, kUint, kFloat, kOne, kFree };
-
-struct Assembler {
-  std::vector<uint32_t> head, interface, annotations, globals, body, functions;
-  uint32_t version = 0x00010000;
-
-  static void add(std::vector<uint32_t>& to, Op op, std::initializer_list<uint32_t> operands) {
-    to.push_back(static_cast<uint32_t>(op) | static_cast<uint32_t>(operands.size() + 1) << 16);
-    to.insert(to.end(), operands);
-  }
-
-  Assembler() {
-    add(head, Op::OpCapability, {static_cast<uint32_t>(spv::Capability::Shader)});
-    add(globals, Op::OpTypeVoid, {kVoid});
-    add(globals, Op::OpTypeFunction, {kFunctionType, kVoid});
-    add(globals, Op::OpTypeInt, {kUint, 32, 0});
-    add(globals, Op::OpTypeFloat, {kFloat, 32});
-    add(globals, Op::OpConstant, {kUint, kOne, 1});
-  }
-
-  std::vector<uint32_t> words() const {
-    std::vector<uint32_t> all{spv::MagicNumber, version, 0, 100, 0};
-    const auto append = [&](const std::vector<uint32_t>& part) { all.insert(all.end(), part.begin(), part.end()); };
-    append(head);
-    add(all, Op::OpMemoryModel, {0, 1});
-    const size_t entry = all.size();
-    add(all, Op::OpEntryPoint,
-        {static_cast<uint32_t>(spv::ExecutionModel::GLCompute), kMain, 0x6E69616D, 0});  // "main"
-    append(interface);
-    all[entry] += static_cast<uint32_t>(interface.size()) << 16;
-    add(all, Op::OpExecutionMode, {kMain, static_cast<uint32_t>(spv::ExecutionMode::LocalSize), 1, 1, 1});
-    append(annotations);
-    append(globals);
-    add(all, Op::OpFunction, {kVoid, kMain, 0, kFunctionType});
-    add(all, Op::OpLabel, {kEntryLabel});
-    append(body);
-    add(all, Op::OpReturn, {});
-    add(all, Op::OpFunctionEnd, {});
-    append(functions);
-    return all;
-  }
-};
-
-std::string outcome(const std::vector<uint32_t>& words, std::string_view entry = "main") {
-  Result<std::shared_ptr<const SpirvModule>> module = parse_spirv(words);
-  if (!module) {
-    EXPECT_EQ(module.error().code, VK_ERROR_UNKNOWN);
-    return module.error().message;
-  }
-  const Result<Code> code = make_compute_code({*module, entry, {}}, {});
-  EXPECT_TRUE(code.ok() || code.error().code == VK_ERROR_UNKNOWN);
-  return code.ok() ? verify(*code) : code.error().message;
-}
-
-std::string outcome_of(const std::function<void(Assembler&)>& change) {
-  Assembler assembler;
-  change(assembler);
-  return outcome(assembler.words());
-}
 
 #define EXPECT_REFUSED(needle, ...)                                                \
   {                                                                                \

@@ -49,26 +49,32 @@ class UseChecker {
     for (uint32_t word = block.first; word < block.end; word += m_.at(word).count) visit(m_.at(word));
   }
 
-  // Cooper, Harvey, Kennedy: "A Simple, Fast Dominance Algorithm". Positions are a reverse post-order.
+  // Loops are entered at their headers only, so jumps back change nothing: a block's parent in the tree is what the
+  // ways to those before it have in common. `jump` leads to an ancestor further up, so that no way is long (Myers, "An
+  // Applicative Random-Access Stack").
   void find_dominators() {
     const uint32_t count = static_cast<uint32_t>(f_.order.size());
-    std::vector<uint32_t> parent(count, kNoBlock);
-    parent[0] = 0;
+    std::vector<uint32_t> parent(count), jump(count), depth(count);
     const auto meet = [&](uint32_t a, uint32_t b) {
-      while (a != b) (a > b ? a : b) = parent[a > b ? a : b];
+      if (depth[a] < depth[b]) std::swap(a, b);
+      while (depth[a] > depth[b]) a = depth[jump[a]] >= depth[b] ? jump[a] : parent[a];
+      while (a != b) {
+        const bool far = jump[a] != jump[b];
+        a = far ? jump[a] : parent[a];
+        b = far ? jump[b] : parent[b];
+      }
       return a;
     };
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (uint32_t position = 1; position < count; ++position) {
-        uint32_t best = kNoBlock;
-        for (const uint32_t from : f_.blocks[f_.order[position]].predecessors) {
-          const uint32_t other = f_.blocks[from].position;
-          if (parent[other] != kNoBlock) best = best == kNoBlock ? other : meet(best, other);
-        }
-        changed |= parent[position] != best;
-        parent[position] = best;
+    for (uint32_t position = 1; position < count; ++position) {
+      uint32_t best = kNoBlock;
+      for (const uint32_t from : f_.blocks[f_.order[position]].predecessors) {
+        const uint32_t other = f_.blocks[from].position;
+        if (other < position) best = best == kNoBlock ? other : meet(best, other);
       }
+      parent[position] = best;
+      depth[position] = depth[best] + 1;
+      const uint32_t up = jump[best];
+      jump[position] = depth[best] - depth[up] == depth[up] - depth[jump[up]] ? jump[up] : best;
     }
     // Numbers of a walk over the tree: a dominates what lies in [first_[a], last_[a]]. Children come after their
     // parents.
