@@ -33,14 +33,27 @@ class FreeRegisters {
     const uint32_t base = static_cast<uint32_t>(64 * hint_);
     return hint_ == words_.size() ? base : base + static_cast<uint32_t>(std::countr_zero(words_[hint_]));
   }
+  // Word by word: there may be tens of thousands, and every other one taken.
   uint32_t find_run(uint32_t count) const {
-    uint32_t run = 0;
-    const uint32_t end = static_cast<uint32_t>(64 * words_.size());
-    for (uint32_t i = static_cast<uint32_t>(64 * hint_); i < end; ++i) {
-      run = (words_[i / 64] >> (i % 64) & 1) != 0 ? run + 1 : 0;
-      if (run == count) return i + 1 - count;
+    uint32_t run = 0;  // free ones before the word
+    for (size_t i = hint_; i < words_.size(); ++i) {
+      const uint64_t word = words_[i];
+      const uint32_t base = static_cast<uint32_t>(64 * i), lowest = static_cast<uint32_t>(std::countr_one(word));
+      if (run + lowest >= count) return base - run;
+      if (lowest == 64) {
+        run += 64;
+        continue;
+      }
+      uint64_t starts = count <= 64 ? word : 0;  // of runs of `length` within the word
+      for (uint32_t length = 1; length < count && starts != 0;) {
+        const uint32_t more = std::min(length, count - length);
+        starts &= starts >> more;
+        length += more;
+      }
+      if (starts != 0) return base + static_cast<uint32_t>(std::countr_zero(starts));
+      run = static_cast<uint32_t>(std::countl_one(word));
     }
-    return std::max(end, static_cast<uint32_t>(64 * hint_)) - run;
+    return static_cast<uint32_t>(64 * words_.size()) - run;
   }
 
   std::vector<uint64_t> words_;  // 1: free

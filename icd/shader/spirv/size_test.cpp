@@ -198,6 +198,53 @@ TEST(SpirvSize, ManySharedVariables) {
   EXPECT_EQ(m.outcome(), "");
 }
 
+// Every other register is free while vectors look for four in a row.
+TEST(SpirvSize, ManyVectorsAmongScalars) {
+  constexpr uint32_t kScalars = 20000, kVectors = 40000;
+  LargeModule m;
+  const uint32_t vector = m.id(), vector_pointer = m.id(), array = m.id(), array_pointer = m.id(), count = m.id();
+  m.add(m.globals, Op::OpTypeVector, {vector, kUint, 4});
+  m.add(m.globals, Op::OpConstant, {kUint, count, 100});
+  m.add(m.globals, Op::OpTypeArray, {array, vector, count});
+  m.add(m.globals, Op::OpTypePointer, {vector_pointer, kShared, vector});
+  m.add(m.globals, Op::OpTypePointer, {array_pointer, kShared, array});
+  const uint32_t vectors = m.shared(array_pointer), shared = m.shared(m.shared_word);
+  m.load_unknown(m.body);
+  std::vector<uint32_t> scalars{m.word};
+  for (uint32_t i = 0; i < kScalars; ++i) {
+    m.add(m.body, Op::OpIMul, {kUint, m.next, m.word, scalars.back()});
+    scalars.push_back(m.id());
+  }
+  const auto in_a_block = [&](const std::function<void()>& fill) {
+    const uint32_t yes = m.id(), merge = m.id();
+    m.add(m.body, Op::OpSelectionMerge, {merge, 0});
+    m.add(m.body, Op::OpBranchConditional, {m.condition, yes, merge});
+    m.add(m.body, Op::OpLabel, {yes});
+    fill();
+    m.add(m.body, Op::OpBranch, {merge});
+    m.add(m.body, Op::OpLabel, {merge});
+  };
+  const auto store_half = [&](uint32_t first) {
+    in_a_block([&] {
+      for (uint32_t i = first; i <= kScalars; i += 2) m.add(m.body, Op::OpStore, {shared, scalars[i]});
+    });
+  };
+  store_half(1);
+  in_a_block([&] {
+    for (uint32_t i = 0; i < kVectors; ++i) {
+      const uint32_t pointer = m.id(), loaded = m.id(), first = m.id(), last = m.id(), sum = m.id();
+      m.add(m.body, Op::OpAccessChain, {vector_pointer, pointer, vectors, m.word});
+      m.add(m.body, Op::OpLoad, {vector, loaded, pointer});
+      m.add(m.body, Op::OpCompositeExtract, {kUint, first, loaded, 0});
+      m.add(m.body, Op::OpCompositeExtract, {kUint, last, loaded, 3});
+      m.add(m.body, Op::OpIAdd, {kUint, sum, first, last});
+      m.add(m.body, Op::OpStore, {shared, sum});
+    }
+  });
+  store_half(0);
+  EXPECT_EQ(m.outcome(), "");
+}
+
 // Phis of 8,000 parents, of a structure without members, so that no instruction comes of them.
 TEST(SpirvSize, PhisWithManyParents) {
   for (const bool same_order : {true, false}) {
