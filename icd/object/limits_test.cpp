@@ -1,8 +1,10 @@
-// The limits against the table "Required Limits" of the specification, transcribed for a device without optional
-// features.
+// The limits against the table "Required Limits" of the specification, transcribed for a device with the features that
+// are offered.
 #include "object/limits.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace lapilli {
 namespace {
@@ -65,7 +67,10 @@ TEST(Limits, AreAtLeastWhatIsRequired) {
       LIMIT(subTexelPrecisionBits, 4),
       LIMIT(mipmapPrecisionBits, 4),
       LIMIT(maxDrawIndexedIndexValue, (1u << 24) - 1),
-      LIMIT(maxDrawIndirectCount, 1),
+      LIMIT(maxDrawIndirectCount, (1u << 16) - 1),  // with multiDrawIndirect
+      LIMIT(maxClipDistances, 8),
+      LIMIT(maxCullDistances, 8),
+      LIMIT(maxCombinedClipAndCullDistances, 8),
       LIMIT(maxViewports, 1),
       LIMIT(maxViewportDimensions[0], 4096),
       LIMIT(maxViewportDimensions[1], 4096),
@@ -94,6 +99,11 @@ TEST(Limits, RangesContainWhatIsRequired) {
   EXPECT_GE(kLimits.maxSamplerAnisotropy, 1.0f);
   EXPECT_LE(kLimits.minTexelOffset, -8);
   EXPECT_GE(kLimits.maxTexelOffset, 7u);
+  EXPECT_LE(kLimits.minTexelGatherOffset, -8);
+  EXPECT_GE(kLimits.maxTexelGatherOffset, 7u);
+  EXPECT_LE(kLimits.minInterpolationOffset, -0.5f);
+  EXPECT_GE(kLimits.maxInterpolationOffset, 0.5f - std::ldexp(1.0f, -int(kLimits.subPixelInterpolationOffsetBits)));
+  EXPECT_GE(kLimits.subPixelInterpolationOffsetBits, 4u);
   const float largest = static_cast<float>(kLimits.maxViewportDimensions[0]);
   EXPECT_LE(kLimits.viewportBoundsRange[0], -2 * largest);
   EXPECT_GE(kLimits.viewportBoundsRange[1], 2 * largest - 1);
