@@ -103,7 +103,9 @@ std::optional<uint32_t> fold(spv::Op op, uint32_t a, uint32_t b, uint32_t c) {
 
 }  // namespace
 
-const std::vector<uint32_t>* Lowering::constant_data(uint32_t id) const { return constants_of_[id]; }
+const std::vector<uint32_t>* Lowering::constant_data(uint32_t id) const {
+  return id < constants_of_.size() ? constants_of_[id] : nullptr;
+}
 
 uint32_t Lowering::specialized(uint32_t id, uint32_t bits) const {
   const std::optional<uint32_t> constant_id = m_.decoration(id, SpirvModule::kWhole, spv::Decoration::SpecId);

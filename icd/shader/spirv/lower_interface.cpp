@@ -270,7 +270,7 @@ void Lowering::read_modes(const SpirvEntryPoint& entry) {
       case spv::ExecutionMode::LocalSizeId:
         if (inst.count != 6) return fail("LocalSizeId has not three sizes");
         for (uint32_t i = 0; i < 3; ++i) {
-          const std::vector<uint32_t>* size = inst[3 + i] < m_.ids.size() ? constant_data(inst[3 + i]) : nullptr;
+          const std::vector<uint32_t>* size = constant_data(inst[3 + i]);
           if (size == nullptr || size->size() != 1) return fail("LocalSizeId has a size that is no constant");
           code_.workgroup_size[i] = size->front();
         }

@@ -8,7 +8,7 @@ using spv::Op;
 
 #define EXPECT_REFUSED(needle, ...)                                                \
   {                                                                                \
-    const std::string text = outcome_of([](Assembler& a) { __VA_ARGS__; });        \
+    const std::string text = outcome_of([&](Assembler& a) { __VA_ARGS__; });       \
     EXPECT_NE(text.find(needle), std::string::npos) << "the message is: " << text; \
   }
 
@@ -196,6 +196,15 @@ TEST(SpirvRefuse, TexelPointers) {
     a.add(a.globals, Op::OpTypePointer, {23, static_cast<uint32_t>(spv::StorageClass::Image), kFloat});
     a.add(a.body, Op::OpImageTexelPointer, {23, 24, 22, kOne, kOne});
   });
+}
+
+// OpConstant has a number where the operations that are allowed have ids.
+TEST(SpirvRefuse, SpecializationConstantsOfOtherOperations) {
+  for (const uint32_t number : {uint32_t{kOne}, 0xFFFFFFFFu}) {
+    EXPECT_REFUSED("OpSpecConstantOp", {
+      a.add(a.globals, Op::OpSpecConstantOp, {kUint, 20, static_cast<uint32_t>(Op::OpConstant), number});
+    });
+  }
 }
 
 TEST(SpirvRefuse, OperandsOfAtomics) {
