@@ -1,5 +1,5 @@
-// SPIR-V to Code: one entry point with everything it calls, scalarized. The stage around it (stage.cpp) adds what feeds
-// the inputs and takes the outputs.
+// SPIR-V to Code: one entry point with everything it calls, scalarized. The stage around it (vertex_stage.cpp,
+// fragment_stage.cpp, stage.cpp) adds what feeds the inputs and takes the outputs.
 #pragma once
 
 #include <spirv/unified1/spirv.hpp11>
